@@ -150,7 +150,7 @@ def layers():
         ("procedure · results", "operator, metrics", "#eef3f8"),
         ("simulation", "one time step of a scene", "#eef3f8"),
         ("scene", "files, keys, instruments and vessel of a scene", "#eef3f8"),
-        ("drive · robot · haptics · fluoroscopy · intervention", "what moves or sees instruments", "#eef3f8"),
+        ("drive · robot · haptics · sensor · fluoroscopy · intervention", "what moves or sees instruments", "#eef3f8"),
         ("patient · phantom", "tissues of the body, synthetic CT and MR", "#eef3f8"),
         ("vessel · segmentation · instrument", "anatomy and devices", "#eef3f8"),
         ("rod · contact", "mechanics; they share only contact/contract", "#eef3f8"),

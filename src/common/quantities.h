@@ -128,6 +128,13 @@ constexpr Quantity kDoseRate{"air kerma rates", "Gy/s", D::kOther, 1e-5, 5e-3, 1
 constexpr Quantity kIodine{"iodine concentrations", "mgI/ml", D::kConcentration, 1.0, 500.0, 0.0, 5000.0};
 constexpr Quantity kMaterialDensity{"densities of materials", "g/cm³", D::kGramDensity, 0.1, 25.0, 1e-3, 100.0};
 
+// Sensors.
+constexpr Quantity kPositionError{"errors of a position", "m", D::kLength, 1e-6, 0.02, 0.0, 1.0};
+constexpr Quantity kAngleError{"errors of an angle", "rad", D::kAngle, 1e-6, 0.5, 0.0, 3.2};
+constexpr Quantity kForceError{"errors of a force", "N", D::kForce, 1e-5, 2.0, 0.0, 100.0};
+constexpr Quantity kTorqueError{"errors of a torque", "N·m", D::kTorque, 1e-9, 0.05, 0.0, 10.0};
+constexpr Quantity kPixelError{"errors on a detector", "pixel", D::kOther, 1e-3, 50.0, 0.0, 1e4};
+
 // Pure numbers.
 constexpr Quantity kCount{"counts", "1", D::kOther, 0.0, 1000.0, 0.0, 1e6};
 constexpr Quantity kFraction{"fractions", "1", D::kFraction, 0.0, 1.0, 0.0, 1.0};

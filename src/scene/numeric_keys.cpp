@@ -46,7 +46,12 @@ const std::vector<std::string> kScenes = {
     "entry: {nearest_centreline_end: true, position: [0, 0, 0]}\ninstrument: " +
         kBentWire +
         "\ndrive: {source: topic}\nsampling: {kind: adaptive}\n"
-        "robot: {urdf: r.urdf, joints: [{joint: j, instrument: w, motion: insertion}]}\n",
+        "robot: {urdf: r.urdf, joints: [{joint: j, instrument: w, motion: insertion}]}\n"
+        "fluoroscopy: {isocentre: [0, 0, 0]}\n"
+        "sensors: [{name: a, kind: em_tracker}, {name: b, kind: encoder}, {name: c, kind: force_sensor},"
+        " {name: d, kind: detector}]\n"
+        "faults: [{axis: insertion, kind: slipping, share: 0.5}, {axis: insertion, kind: delayed, delay: 0.1},"
+        " {axis: rotation, kind: backlash, play: 0.1}]\n",
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, head: [0, 0, 1], left: [1, 0, 0]}\n"
     "entry: {centreline_end: a}\ninstrument: " +
         kWire +

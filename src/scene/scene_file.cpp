@@ -49,7 +49,8 @@ void normalise(yaml::Node& root, const std::string& file)
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
   if (yaml::Node* procedure = fieldOf(root, "procedure"))
     expandProcedure(*procedure, file);
-  removeIfNone(fieldOf(root, "vessel"));
+  for (const char* part : {"vessel", "sensors", "faults"})
+    removeIfNone(fieldOf(root, part));
   yaml::Node* fluoroscopy = fieldOf(root, "fluoroscopy");
   removeIfNone(fluoroscopy);
   if (fluoroscopy != nullptr)

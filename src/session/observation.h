@@ -10,6 +10,7 @@
 #include "procedure/branch_locator.h"
 #include "session/world.h"
 #include "simulation/contact_forces.h"
+#include "simulation/hardware/sensors.h"
 #include "simulation/simulation.h"
 
 namespace endovascular_sim::session
@@ -29,8 +30,11 @@ struct Tip
 class Observation
 {
 public:
-  /** Both parameters belong to the session that owns the observation. */
-  Observation(const simulation::Simulation& simulation, const World& world) : simulation_(simulation), world_(world) {}
+  /** The parameters belong to the session that owns the observation. */
+  Observation(const simulation::Simulation& simulation, const World& world, const simulation::Sensors& sensors)
+    : simulation_(simulation), world_(world), sensors_(sensors)
+  {
+  }
 
   std::uint64_t step() const { return simulation_.steps(); }  ///< number of steps so far
   double time() const { return simulation_.time(); }          ///< simulated time [s]
@@ -58,12 +62,16 @@ public:
   /** Forces between wall and wire, one per touching node; computed by the first call after a step. */
   const std::vector<simulation::WallContact>& forces() const;
 
+  /** Sensors of the scene: measured values beside the true ones of the other functions. */
+  const simulation::Sensors& sensors() const { return sensors_; }
+
   /** Events of balloons and stents so far. */
   const std::vector<simulation::TimedEvent>& events() const { return simulation_.events(); }
 
 private:
   const simulation::Simulation& simulation_;
   const World& world_;
+  const simulation::Sensors& sensors_;
   mutable std::vector<simulation::WallContact> forces_;
   mutable std::uint64_t forces_step_ = std::numeric_limits<std::uint64_t>::max();  ///< step that forces_ belong to
 };

@@ -12,6 +12,7 @@
 #include "common/archive.h"
 #include "common/output_file.h"
 #include "session/still_image.h"
+#include "simulation/hardware/robot_hardware.h"
 #include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::session
@@ -39,10 +40,11 @@ std::uint64_t stepsBetweenChecks(const SessionSettings& settings, const scene::S
 /** All that changes during a run. */
 struct Session::Run
 {
-  Run(std::shared_ptr<const World> the_world, std::shared_ptr<const scene::Scene> the_scene,
+  Run(std::shared_ptr<const World> the_world, std::shared_ptr<const scene::Scene> the_scene, std::uint64_t the_seed,
       const SessionSettings& settings)
     : world(std::move(the_world)),
       scene(std::move(the_scene)),
+      seed(the_seed),
       detector(world->vessel() != nullptr && !settings.contacts
                    ? std::make_unique<contact::Detector>(world->wall(), scene::wallLaw(*scene->vessel))
                    : nullptr),
@@ -52,7 +54,8 @@ struct Session::Run
                  world->vessel() != nullptr ? &world->vessel()->centreline : nullptr,
                  settings.wall ? settings.wall.get() : wall.get()),
       hands(*scene),
-      observation(simulation, *world)
+      hardware(*scene, seed),
+      observation(simulation, *world, hardware.sensors())
   {
     if (scene->procedure && world->vessel() != nullptr)
       scripted.emplace(*scene, world->branches(), world->entry().position);
@@ -60,12 +63,13 @@ struct Session::Run
 
   std::shared_ptr<const World> world;
   std::shared_ptr<const scene::Scene> scene;
-  std::uint64_t seed = 0;
+  std::uint64_t seed;
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null unless an instrument has a balloon
   simulation::Simulation simulation;
   std::optional<procedure::Operator> scripted;
   simulation::DrivenHands hands;
+  simulation::RobotHardware hardware;
   Observation observation;
   std::optional<RunRecord> record;
   std::vector<simulation::HandCommand> commands;
@@ -122,9 +126,7 @@ std::unique_ptr<Session::Run> Session::begin(std::uint64_t seed) const
     scene = std::make_shared<const scene::Scene>(procedure::perturbed(*scene, settings_.spread, seed));
     world_->requireStart(*scene);
   }
-  auto run = std::make_unique<Run>(world_, std::move(scene), settings_);
-  run->seed = seed;
-  return run;
+  return std::make_unique<Run>(world_, std::move(scene), seed, settings_);
 }
 
 /** Makes a run the present one. */
@@ -174,7 +176,7 @@ const std::vector<simulation::HandCommand>& Session::nextCommands()
   Run& run = this->run();
   const std::vector<simulation::HandCommand>* scripted = run.scripted ? &run.scripted->next(run.simulation) : nullptr;
   if (settings_.clients)
-    return run.hands.next(run.simulation, scripted);
+    return run.hands.next(run.simulation, scripted, &run.hardware.faults());
   if (scripted != nullptr)
     return *scripted;
   const double end = static_cast<double>(run.simulation.steps() + 1) * run.scene->solver.time_step;
@@ -186,7 +188,8 @@ void Session::advance(const std::vector<simulation::HandCommand>& commands)
 {
   Run& run = this->run();
   const Clock::time_point before = Clock::now();
-  run.simulation.stepAll(commands);
+  run.simulation.stepAll(run.hardware.execute(run.simulation, commands));
+  run.hardware.measure(run.simulation);
   run.seconds = std::chrono::duration<double>(Clock::now() - before).count();
   if (!run.record)
     return;
@@ -253,6 +256,48 @@ drive::HandControl& Session::control(int instrument)
   return *control;
 }
 
+drive::HandMotion Session::reached(int instrument) const
+{
+  return run().hardware.reached(run().simulation, instrument);
+}
+
+drive::Interval Session::stops(int instrument) const
+{
+  return run().hardware.stops(run().simulation, instrument);
+}
+
+const robot::CommandFaults& Session::faults() const
+{
+  return run().hardware.faults();
+}
+
+void Session::addFault(const robot::FaultSettings& fault)
+{
+  const std::string refusal = robot::refusalOf(fault);
+  if (!refusal.empty())
+    throw std::invalid_argument("Session: the fault is impossible: " + refusal);
+  if (fault.instrument >= scene().instruments.size())
+    throw std::invalid_argument("Session: no instrument " + std::to_string(fault.instrument) + " for a fault");
+  run().hardware.faults().add(fault);
+}
+
+std::size_t Session::removeFaults(int instrument, robot::FaultAxis axis)
+{
+  if (instrument < 0 || instrument >= run().simulation.instruments())
+    throw std::invalid_argument("Session: no instrument " + std::to_string(instrument) + " for a fault");
+  return run().hardware.faults().remove(static_cast<std::size_t>(instrument), axis);
+}
+
+std::uint64_t Session::noiseSeed() const
+{
+  return run().hardware.seed();
+}
+
+void Session::setNoiseSeed(std::uint64_t seed)
+{
+  run().hardware.setSeed(seed);
+}
+
 const Observation& Session::observe() const
 {
   return run().observation;
@@ -299,10 +344,13 @@ std::string Session::save()
                       {
                         if (run.scripted)
                           archive(*run.scripted);
-                        if (settings_.clients || run.seed != 0)
+                        const bool has_hardware = run.hardware.needsSaving();
+                        if (settings_.clients || run.seed != 0 || has_hardware)
                           archive(run.hands);
-                        if (run.seed != 0)
+                        if (run.seed != 0 || has_hardware)
                           archive(run.seed);
+                        if (has_hardware)
+                          archive(run.hardware);
                       });
   return stream.str();
 }
@@ -328,6 +376,9 @@ void Session::load(const std::string& state, const std::string& origin)
                                 archive(loaded->hands);
                               if (!archive.atEnd())
                                 archive(seed);
+                              loaded->hardware.restartAt(loaded->simulation);
+                              if (!archive.atEnd())
+                                archive(loaded->hardware);
                             });
   } while (seed != loaded->seed);
   start(std::move(loaded));
@@ -344,7 +395,10 @@ std::vector<std::string> Session::adopt(const std::string& state, const std::str
     dropped.emplace_back("progress of the procedure: it begins with its first step");
   if (settings_.results)
     dropped.emplace_back("results of the steps before");
+  if (!world_->scene().sensors.empty() || !world_->scene().faults.empty())
+    dropped.emplace_back("samples of sensors and motion that faults have kept: they begin again");
   adopted->hands.restAt(adopted->simulation);
+  adopted->hardware.restartAt(adopted->simulation);
   start(std::move(adopted));
   return dropped;
 }

@@ -13,6 +13,7 @@
 #include "intervention/deformable_wall.h"
 #include "procedure/operator.h"
 #include "procedure/perturbation.h"
+#include "robot/command_faults.h"
 #include "session/observation.h"
 #include "session/run_record.h"
 #include "session/world.h"
@@ -66,7 +67,8 @@ public:
   // ----------------------------------------------------------------------------------------------- beginning and end
 
   /** Returns to the beginning of the scene. The session is afterwards, bit for bit, as a new one.
-   *  @param seed of the varied start and procedure (procedure::perturbed()); 0: the scene as it stands
+   *  @param seed of the varied start and procedure (procedure::perturbed()); 0: the scene as it stands. It is the
+   *         noise seed, too
    *  @throws InputError if an instrument would penetrate the wall at the start
    *  @throws std::logic_error when a balloon has moved the wall of SessionSettings::wall */
   void reset(std::uint64_t seed = 0);
@@ -100,6 +102,35 @@ public:
 
   /** Controls of all instruments, e.g. for a simulation::CommandPlayer. */
   simulation::DrivenHands& hands();
+
+  /** Position that an instrument has reached in the scale of its commands: that of Simulation::reached(), plus the
+   *  motion that faults of the robot have kept from it. */
+  drive::HandMotion reached(int instrument) const;
+
+  /** Stops of an instrument in that scale, see Simulation::stops(). */
+  drive::Interval stops(int instrument) const;
+
+  // ------------------------------------------------------------------------------------------- faults and random
+  // errors
+
+  /** Faults of the robot: those of the scene, and added ones. They are part of a saved state; reset() leaves those of
+   *  the scene. */
+  const robot::CommandFaults& faults() const;
+
+  /** Adds a fault that begins with the next step, or at its own start if that is later.
+   *  @throws std::invalid_argument for an unknown instrument or impossible values */
+  void addFault(const robot::FaultSettings& fault);
+
+  /** Removes all faults of an axis.
+   *  @return number of faults that were removed
+   *  @throws std::invalid_argument for an unknown instrument */
+  std::size_t removeFaults(int instrument, robot::FaultAxis axis);
+
+  /** Seed of the errors and losses of sensors and of the faulty intervals, beside that of the scene. */
+  std::uint64_t noiseSeed() const;
+
+  /** Draws the errors, losses and faulty intervals of later steps with another seed. */
+  void setNoiseSeed(std::uint64_t seed);
 
   // -------------------------------------------------------------------------------------------------------- observing
 

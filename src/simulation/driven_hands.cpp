@@ -18,16 +18,18 @@ namespace
 constexpr double kSameTime = 1e-9;  ///< tolerance of the time of a command [s]
 constexpr double kCalendar = 1e8;   ///< least time that is taken for a stamp of the calendar [s]
 
-drive::HandFeedback feedbackOf(const Simulation& simulation, int instrument)
+/** @param lag motion that faults of the robot have kept from the instrument */
+drive::HandFeedback feedbackOf(const Simulation& simulation, int instrument, const drive::HandMotion& lag)
 {
   const HandState hand = simulation.hand(instrument);
   const drive::HandMotion reached = simulation.reached(instrument);
   const drive::HandMotion slipped = simulation.slipped(instrument);
   drive::HandFeedback feedback;
-  feedback.insertion = {reached.insertion, hand.force, slipped.insertion, simulation.stops(instrument)};
-  feedback.rotation.reached = reached.rotation;
+  feedback.insertion = {reached.insertion + lag.insertion, hand.force, slipped.insertion + lag.insertion,
+                        simulation.stops(instrument).shifted(lag.insertion)};
+  feedback.rotation.reached = reached.rotation + lag.rotation;
   feedback.rotation.effort = hand.torque;
-  feedback.rotation.slipped = slipped.rotation;
+  feedback.rotation.slipped = slipped.rotation + lag.rotation;
   return feedback;
 }
 
@@ -108,7 +110,8 @@ void DrivenHands::archive(Archive& archive)
 }
 
 const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
-                                                  const std::vector<HandCommand>* scripted)
+                                                  const std::vector<HandCommand>* scripted,
+                                                  const robot::CommandFaults* faults)
 {
   const double dt = scene_.solver.time_step;
   const double end = static_cast<double>(simulation.steps() + 1) * dt;
@@ -119,7 +122,8 @@ const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
     const scene::DriveScene& drive = scene_.instruments[k].drive;
     if (controls_[k])
     {
-      const drive::HandSetpoint& setpoint = controls_[k]->next(dt, feedbackOf(simulation, static_cast<int>(k)));
+      const drive::HandMotion lag = faults != nullptr ? faults->lag(k) : drive::HandMotion();
+      const drive::HandSetpoint& setpoint = controls_[k]->next(dt, feedbackOf(simulation, static_cast<int>(k), lag));
       const bool has_pressure = setpoint.pressure && scene_.instruments[k].instrument.balloon;
       next_[k] = {setpoint.motion.insertion, setpoint.motion.rotation,
                   has_pressure ? *setpoint.pressure : drive.pressureAt(end)};

@@ -6,6 +6,7 @@
 
 #include "drive/command_file.h"
 #include "drive/hand_control.h"
+#include "robot/command_faults.h"
 #include "scene/model/scene.h"
 #include "simulation/simulation.h"
 
@@ -40,9 +41,10 @@ public:
   const drive::HandControl* control(std::size_t instrument) const;
 
   /** Commands of the coming step, one per instrument.
-   *  @param scripted commands of the scripted operator; null without one */
-  const std::vector<HandCommand>& next(const Simulation& simulation,
-                                       const std::vector<HandCommand>* scripted = nullptr);
+   *  @param scripted commands of the scripted operator; null without one
+   *  @param faults that act on these commands, of which the controls see nothing; null without any */
+  const std::vector<HandCommand>& next(const Simulation& simulation, const std::vector<HandCommand>* scripted = nullptr,
+                                       const robot::CommandFaults* faults = nullptr);
 
   /** Holds all instruments that clients drive where they are. */
   void restAt(const Simulation& simulation);

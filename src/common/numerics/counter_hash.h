@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace endovascular_sim
@@ -41,6 +42,12 @@ inline CounterKeys counterKeys(std::uint64_t seed, std::uint64_t stream)
     keys[k + 1] = static_cast<std::uint32_t>(bits >> 32);
   }
   return keys;
+}
+
+/** Uniform number in [0, 1) that is a function of seed, stream and index. */
+inline double uniformNumber(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)
+{
+  return std::ldexp(static_cast<double>(mixedBits(mixedBits(seed ^ mixedBits(stream)) ^ index) >> 11), -53);
 }
 
 }  // namespace endovascular_sim

@@ -13,11 +13,13 @@
 #include "drive/drive_limits.h"
 #include "fluoroscopy/gantry/gantry_limits.h"
 #include "instrument/instrument.h"
+#include "robot/command_fault.h"
 #include "robot/joint_link.h"
 #include "robot/robot_model.h"
 #include "rod/stepping/scheme_traits.h"
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene_procedure.h"
+#include "sensor/sensor_settings.h"
 #include "vessel/model/lesion.h"
 
 namespace endovascular_sim::scene
@@ -322,6 +324,8 @@ struct Scene
   std::optional<FluoroscopyScene> fluoroscopy;
   bool haptic_device = false;  ///< true: start the haptic device node
   std::optional<RobotScene> robot;
+  std::vector<sensor::SensorSettings> sensors;
+  std::vector<robot::FaultSettings> faults;  ///< of the robot's drives
   RecordScene record;
   std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
   std::string resolved_yaml;          ///< canonical text of the scene, with overrides and included files merged

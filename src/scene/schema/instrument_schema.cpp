@@ -147,13 +147,6 @@ void visitMarkers(yaml::Fields& fields, instrument::Instrument& instrument)
       });
 }
 
-bool isTopicName(const std::string& name)
-{
-  return std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-         std::all_of(name.begin(), name.end(),
-                     [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
-}
-
 void visitShaft(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   const bool solid = instrument.kind == instrument::Kind::kGuidewire;
@@ -178,6 +171,13 @@ void visitShaft(yaml::Fields& fields, instrument::Instrument& instrument)
 }
 
 }  // namespace
+
+bool isTopicName(const std::string& name)
+{
+  return std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
+}
 
 void visitInstrument(yaml::Fields& fields, instrument::Instrument& instrument)
 {

@@ -374,6 +374,10 @@ void visitScene(yaml::Fields& fields, Scene& scene)
   fields.boolean("haptic_device", scene.haptic_device);
   if (fields.reading() ? fields.has("robot") : scene.robot.has_value())
     fields.map("robot", [&scene](yaml::Fields& robot) { visitRobot(robot, scene); });
+  if (fields.reading() ? fields.has("sensors") : !scene.sensors.empty())
+    visitSensors(fields, scene);
+  if (fields.reading() ? fields.has("faults") : !scene.faults.empty())
+    visitFaults(fields, scene);
   fields.map("record", [&scene](yaml::Fields& record) { visitRecord(record, scene.record); });
   if (fields.reading())
     checkScene(fields, scene);

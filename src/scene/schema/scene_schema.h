@@ -22,6 +22,8 @@ void visitVessel(yaml::Fields& fields, VesselScene& vessel);
 /** Key `friction`: a coefficient, or one of the words `hydrophilic`, `ptfe`, `bare`. If optional, it may remain NaN. */
 void visitFriction(yaml::Fields& fields, double& friction, Need need);
 void visitEntry(yaml::Fields& fields, EntryScene& entry, const std::optional<VesselScene>& vessel);
+/** True for a name that can be a part of a topic: letters, digits and _, with a letter first. */
+bool isTopicName(const std::string& name);
 /** Schema of any instrument of the library. */
 void visitInstrument(yaml::Fields& fields, instrument::Instrument& instrument);
 /** Schema of an instrument with a drive: any kind except a separate stent. */
@@ -38,6 +40,12 @@ std::string drivePath(const Scene& scene, std::size_t k);
 void checkStack(const yaml::Fields& fields, const Scene& scene);
 /** Schema of `robot`. Checks what does not depend on the URDF; the joints are checked when it has been read. */
 void visitRobot(yaml::Fields& fields, Scene& scene);
+/** Schema of the list `sensors`. */
+void visitSensors(yaml::Fields& fields, Scene& scene);
+/** Schema of the list `faults`. */
+void visitFaults(yaml::Fields& fields, Scene& scene);
+/** Key `instrument`, the name of one of the scene's instruments; optional where there is only one. */
+void visitInstrumentName(yaml::Fields& fields, const Scene& scene, std::size_t& instrument);
 /** Schema of a drive.
  *  @param initial_insertion valid range of the initial insertion [m]
  *  @param balloon true if the instrument has a balloon that the drive can inflate */
