@@ -2,6 +2,7 @@
 
 #include "common/version.h"
 #include "errors.h"
+#include "hardware.h"
 #include "observation.h"
 #include "rollout.h"
 #include "session.h"
@@ -15,11 +16,12 @@ PYBIND11_MODULE(_core, module)
   module.attr("commit") = commit();
   module.attr("physics_number") = kPhysicsNumber;
   python::bindErrors(module);
+  python::bindReading(module);
   python::bindObservation(module);
   python::bindWorld(module);
   python::bindSession(module);
   python::bindRollout(module);
   for (const char* name :
-       {"Branch", "Observation", "Rollout", "Session", "World"})  // their public place, e.g. in pickles
+       {"Branch", "Observation", "Reading", "Rollout", "Session", "World"})  // their public place, e.g. in pickles
     module.attr(name).attr("__module__") = "endovascular_sim";
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "arrays.h"
+#include "hardware.h"
 #include "zeroed.h"
 
 namespace endovascular_sim::python
@@ -27,6 +28,7 @@ struct Snapshot : Zeroed
   py::tuple branches;
   py::array_t<double> nodes;
   py::array_t<ForceRow> forces;
+  py::dict sensors;
 };
 
 std::string represented(const Branch& branch)
@@ -42,7 +44,7 @@ py::object branchOf(const session::Observation& observation, int instrument)
   return py::cast(Branch{{}, observation.branchName(instrument), at.branch, at.depth});
 }
 
-py::object snapshotOf(const session::Observation& observation)
+py::object snapshotOf(const session::Observation& observation, double time_step)
 {
   py::tuple branches(static_cast<std::size_t>(observation.instruments()));
   for (int k = 0; k < observation.instruments(); ++k)
@@ -54,7 +56,8 @@ py::object snapshotOf(const session::Observation& observation)
                            tipsOf(observation),
                            branches,
                            pointArray(observation.nodes(), static_cast<std::size_t>(observation.firstNode())),
-                           forcesOf(observation)});
+                           forcesOf(observation),
+                           readingsOf(observation, time_step)});
 }
 
 void bindObservation(py::module_& module)
@@ -72,7 +75,8 @@ void bindObservation(py::module_& module)
       .def_readonly("tips", &Snapshot::tips, "As Session.tips.")
       .def_readonly("branches", &Snapshot::branches, "Branch of each instrument's tip, a tuple.")
       .def_readonly("nodes", &Snapshot::nodes, "As Session.nodes.")
-      .def_readonly("forces", &Snapshot::forces, "As Session.forces.");
+      .def_readonly("forces", &Snapshot::forces, "As Session.forces.")
+      .def_readonly("sensors", &Snapshot::sensors, "As Session.sensors.");
 }
 
 }  // namespace endovascular_sim::python

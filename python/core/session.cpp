@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/hash.h"
 #include "errors.h"
+#include "hardware.h"
 #include "observation.h"
 #include "signals.h"
 #include "simulation/instrument_tip.h"
@@ -145,7 +146,7 @@ py::array_t<double> reachedOf(const session::Session& session)
   py::array_t<double> rows({session.observe().instruments(), 2});
   for (int k = 0; k < session.observe().instruments(); ++k)
   {
-    const drive::HandMotion reached = session.simulation().reached(k);
+    const drive::HandMotion reached = session.reached(k);
     rows.mutable_at(k, 0) = reached.insertion;
     rows.mutable_at(k, 1) = reached.rotation;
   }
@@ -157,7 +158,7 @@ py::array_t<double> stopsOf(const session::Session& session)
   py::array_t<double> rows({session.observe().instruments(), 2});
   for (int k = 0; k < session.observe().instruments(); ++k)
   {
-    const drive::Interval stops = session.simulation().stops(k);
+    const drive::Interval stops = session.stops(k);
     rows.mutable_at(k, 0) = stops.low;
     rows.mutable_at(k, 1) = stops.high;
   }
@@ -322,7 +323,12 @@ void bindObserving(Class& bound)
       "time", [](const session::Observation& seen) { return seen.time(); }, "Simulated time [s].");
   bound
       .def(
-          "observe", [](OwnedSession& self) { return seen(self, &snapshotOf); },
+          "observe",
+          [](OwnedSession& self)
+          {
+            const Use session(self);
+            return snapshotOf(session->observe(), session->scene().solver.time_step);
+          },
           "Observation of the present state; copies of all its parts.")
       .def(
           "branch",
@@ -358,7 +364,8 @@ void bindProgress(Class& bound)
   part("reached", &reachedOf,
        "Positions that the handles have reached in the scale of their commands, [instrument, 2]: insertion [m], "
        "rotation "
-       "[rad]; a copy. The difference from `hands` is the motion that slipped through the grips.");
+       "[rad]; a copy. The difference from `hands` is the motion that slipped through the grips, or that faults of the "
+       "robot have kept.");
   part(
       "stops", &stopsOf,
       "Least and largest insertion of each instrument at present, [instrument, 2] [m]; infinite without an introducer; "
@@ -475,6 +482,7 @@ manager. One thread at a time may use it: others raise UsageError, as every use 
   bindObserving(bound);
   bindProgress(bound);
   bindStates(bound);
+  bindHardware(bound);
   module.def("_session_of_pickle", &continued);
   module.attr("World").attr("session") = py::cpp_function(
       [](const std::shared_ptr<SharedWorld>& world, std::uint64_t seed, bool results, bool clients)

@@ -3,6 +3,7 @@ from ._core import (
     Error as Error,
     InputError as InputError,
     Observation as Observation,
+    Reading as Reading,
     Rollout as Rollout,
     Session as Session,
     UsageError as UsageError,

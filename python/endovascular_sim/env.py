@@ -24,7 +24,8 @@ class Env(_gym.EnvBase):
     turns         full scale of a "position" rotation [rad]; that of the insertion is the largest insertion
     observations  names: tracking, points of the instrument from the tip backwards [m]; tracking2d, the same on the
                   detector, -1 to 1; target [m]; target2d; hand, insertion [m] and rotation [rad]; hand_force [N, N m];
-                  wall_force, the largest wall and tip force of the step [N]; last_action; image, uint8
+                  wall_force, the largest wall and tip force of the step [N]; last_action; image, uint8; and names of
+                  sensors of the scene, with the values as Session.sensors, and last 1 if the sample is valid, else 0
     points        number and spacing [m] of the tracked points
     flatten       True: one vector of all observations; False: a dictionary
     view          of tracking2d, target2d, image and render(), e.g. "LAO 40"
@@ -55,13 +56,16 @@ class Env(_gym.EnvBase):
                  start_turn=0.0, rewards=None, force_limits=None, force_ends=True, render_mode=None):
         if action not in ACTIONS:
             raise InputError("action: '%s' is none of %s" % (action, ", ".join(ACTIONS)))
-        _require_known("observations", observations, OBSERVATIONS)
         _require_known("rewards", rewards or (), REWARDS)
         _require_known("force_limits", force_limits or (), PEAKS)
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise InputError("render_mode: '%s' is none of None, rgb_array" % render_mode)
         self.world = _driven_by_clients(world) if action == "force" else _world(world)
         self.session = self.world.session(clients=action == "force")
+        self._sensors = {name: reading.values.size for name, reading in self.session.sensors.items()}
+        _require_known("observations", observations, (*OBSERVATIONS, *self._sensors))
+        for name in set(self._sensors) & set(OBSERVATIONS):
+            raise InputError("observations: '%s' is an observation and a sensor of the scene; rename the sensor" % name)
         self.instrument, self.action, self.view, self.render_mode = instrument, action, view, render_mode
         self.routes = [Route(self.world, one) for one in (target if isinstance(target, list) else [target])]
         self._require_reachable(tolerance)
@@ -84,6 +88,8 @@ class Env(_gym.EnvBase):
         """Begins an episode. options: none. Returns observation and info."""
         super().reset(seed=seed)
         self._begin()
+        if self._sensors or self.session.faults:
+            self.session.noise_seed = int(self.np_random.integers(1, 2**32))
         self._turn()
         self._route = self.routes[int(self.np_random.integers(len(self.routes))) if len(self.routes) > 1 else 0]
         self._count, self._last = 0, np.zeros(self.action_space.shape, np.float32)
@@ -160,12 +166,18 @@ class Env(_gym.EnvBase):
 
     def observe(self):
         """Present observation, as reset() and step() return it."""
-        parts = {name: getattr(self, "_see_" + name)() for name in self._names}
+        sensors = self.session.sensors if self._sensors else {}
+        parts = {name: self._reading(sensors[name]) if name in sensors else getattr(self, "_see_" + name)()
+                 for name in self._names}
         if not self._flatten:
             return parts
         return np.concatenate([part.ravel() for part in parts.values()])
 
     # ----------------------------------------------------------------------------------------------- observations
+
+    @staticmethod
+    def _reading(reading):
+        return np.append(reading.values, reading.valid).astype(np.float32)
 
     def _tracked(self):
         return self.session.track(self._points[0], self._points[1], self.instrument)
@@ -251,6 +263,7 @@ class Env(_gym.EnvBase):
         self.action_space = _gym.Box(-1.0, 1.0, (count, 2), float32)
         shapes = {"tracking": (self._points[0], 3), "tracking2d": (self._points[0], 2), "target": (3,), "target2d": (2,),
                   "hand": (count, 2), "hand_force": (count, 2), "wall_force": (2,)}
+        shapes.update({name: (size + 1,) for name, size in self._sensors.items()})
         spaces = {name: _gym.Box(-np.inf, np.inf, shape, float32) for name, shape in shapes.items() if name in self._names}
         if "last_action" in self._names:
             spaces["last_action"] = _gym.Box(-1.0, 1.0, (count, 2), float32)
