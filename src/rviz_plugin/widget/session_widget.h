@@ -1,24 +1,20 @@
 #pragma once
 
-#include <array>
-#include <memory>
+#include <string>
 
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
 
 #include "rviz_plugin/model/joystick.h"
-#include "rviz_plugin/model/operator_controls.h"
 #include "rviz_plugin/model/session_port.h"
-
-class QComboBox;
-class QLabel;
-class QProgressBar;
-class QPushButton;
-class QSlider;
 
 namespace endovascular_sim::rviz_plugin
 {
+
+class DriveBox;
+class SessionRow;
+class StateBox;
 
 /** Widget of the panel: controls of a session and its state. Independent of rviz and of ROS's connections.
  *
@@ -57,47 +53,18 @@ protected:
   void hideEvent(QHideEvent* event) override;
 
 private:
-  struct Labels
-  {
-    QLabel *status, *insertion, *rotation, *force, *torque, *branch, *time, *step, *hint, *recording, *answer, *errors,
-        *warnings, *pressure, *keys, *speed;
-  };
-
-  QWidget* sessionRow();
-  QWidget* driveBox();
-  QWidget* balloonRow();
-  QWidget* cArmRow();
-  QWidget* viewRow();
-  QWidget* stateBox();
-  QPushButton* motionButton(const QString& text, const QString& name, Motion motion);
-  QPushButton* requestButton(const QString& text, const QString& name, Request request);
-  QLabel* label(const QString& name);
-  void takeOverInstruments(const SessionState& state);
-  void choose(int index);
-  void changePressure(double atmospheres);
-  void sendVelocity();
-  void releaseAll();
-  bool canDrive() const;
   bool takesKeys() const;
   bool pressKey(const QKeyEvent& event);    ///< @return false for a key without a meaning
   bool releaseKey(const QKeyEvent& event);  ///< as pressKey()
-  std::size_t chosen() const;               ///< index of the chosen instrument
   void pauseOrStart();
-  void chooseNext(int step);
   void followJoystick();
 
   SessionPort& port_;
-  OperatorControls controls_;
   Joystick joystick_;
-  bool is_stick_held_ = false;
   SessionState state_;
-  QComboBox *instruments_, *views_;
-  QSlider* speed_;
-  QProgressBar* gauge_;
-  std::array<QPushButton*, kMotions> motions_{};
-  QPushButton* record_;
-  QWidget* balloon_;
-  Labels labels_{};
+  SessionRow* session_;
+  DriveBox* drive_;
+  StateBox* box_;
   QTimer timer_;
   QPointer<QWidget> key_source_;  ///< see takeKeysOf(); null without one
 };

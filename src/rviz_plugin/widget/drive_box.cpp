@@ -1,0 +1,218 @@
+#include "rviz_plugin/widget/drive_box.h"
+
+#include <algorithm>
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSlider>
+
+#include "common/units.h"
+#include "rviz_plugin/widget/panel_parts.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr double kVacuum = -0.8e5;  // gauge pressure of a deflated balloon [Pa]
+
+}  // namespace
+
+DriveBox::DriveBox(SessionPort& port, QWidget& keys) : port_(port), key_target_(keys)
+{
+  auto* layout = compact(new QGridLayout(this));
+  instruments_ = new QComboBox;
+  instruments_->setObjectName("instruments");
+  instruments_->setFocusPolicy(Qt::NoFocus);
+  connect(instruments_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this](int index) { choose(index); });
+  layout->addWidget(instruments_, 0, 0, 1, 2);
+  layout->addWidget(motionButton("Push ↑", "push", Motion::kPush), 1, 0);
+  layout->addWidget(motionButton("Pull ↓", "pull", Motion::kPull), 1, 1);
+  layout->addWidget(motionButton("← Twist", "twist_left", Motion::kTwistLeft), 2, 0);
+  layout->addWidget(motionButton("Twist →", "twist_right", Motion::kTwistRight), 2, 1);
+  speed_ = new QSlider(Qt::Horizontal);
+  speed_->setObjectName("speed");
+  speed_->setFocusPolicy(Qt::NoFocus);
+  speed_->setRange(0, 100);
+  speed_text_ = panelLabel("speed_text");
+  connect(speed_, &QSlider::valueChanged, this,
+          [this](int value)
+          {
+            controls_.setSpeed(value / 100.0);
+            sendVelocity();
+          });
+  speed_->setValue(60);
+  layout->addWidget(speed_, 3, 0);
+  layout->addWidget(speed_text_, 3, 1);
+  keys_ = panelLabel("keys");
+  layout->addWidget(keys_, 4, 0, 1, 2);
+  balloon_ = makeBalloonRow();
+  layout->addWidget(balloon_, 5, 0, 1, 2);
+}
+
+QPushButton* DriveBox::motionButton(const QString& text, const QString& name, Motion motion)
+{
+  QPushButton* button = panelButton(text, name);
+  button->setMinimumHeight(32);
+  connect(button, &QPushButton::pressed, this,
+          [this, motion]
+          {
+            key_target_.setFocus();
+            press(motion, OperatorControls::Source::kButton);
+          });
+  connect(button, &QPushButton::released, this, [this, motion] { release(motion, OperatorControls::Source::kButton); });
+  motions_[static_cast<std::size_t>(motion)] = button;
+  return button;
+}
+
+QWidget* DriveBox::makeBalloonRow()
+{
+  auto* row = new QWidget;
+  auto* layout = compact(new QHBoxLayout(row));
+  layout->addWidget(new QLabel("Balloon"));
+  pressure_ = panelLabel("pressure");
+  layout->addWidget(pressure_, 1);
+  const struct
+  {
+    const char *text, *name;
+    double atmospheres;
+  } steps[] = {{"+1 atm", "inflate", 1.0}, {"−1 atm", "lower", -1.0}, {"Deflate", "deflate", 0.0}};
+  for (const auto& step : steps)
+    layout->addWidget(panelButton(step.text, step.name,
+                                  [this, atmospheres = step.atmospheres]
+                                  {
+                                    key_target_.setFocus();
+                                    changePressure(atmospheres);
+                                  }));
+  row->hide();
+  return row;
+}
+
+void DriveBox::showState(const PanelTexts& texts, bool takes_keys)
+{
+  const std::size_t index = chosen();
+  balloon_->setVisible(index < state_.scene.instruments.size() && state_.scene.instruments[index].has_balloon);
+  pressure_->setText(QString::fromStdString(texts.pressure));
+  for (QPushButton* button : motions_)
+    button->setToolTip(canDrive() ? QString() : QString("the scene does not let a topic drive this instrument"));
+  keys_->setText(!canDrive()  ? QString("driven by the scene")
+                 : takes_keys ? QString("Keys: arrows, space")
+                              : QString("Click here for the keys"));
+}
+
+void DriveBox::takeOver(const SessionState& state)
+{
+  state_ = state;
+  QStringList names;
+  for (const InstrumentSummary& instrument : state_.scene.instruments)
+    names << QString::fromStdString(instrument.shape.name);
+  QStringList present;
+  for (int k = 0; k < instruments_->count(); ++k)
+    present << instruments_->itemText(k);
+  if (names == present)
+    return;
+  {
+    const QSignalBlocker blocker(instruments_);
+    instruments_->clear();
+    instruments_->addItems(names);
+  }
+  choose(instruments_->currentIndex());
+}
+
+std::size_t DriveBox::chosen() const
+{
+  return static_cast<std::size_t>(std::max(instruments_->currentIndex(), 0));
+}
+
+int DriveBox::instruments() const
+{
+  return instruments_->count();
+}
+
+void DriveBox::chooseNext(int step)
+{
+  if (instruments_->count() > 0)
+    instruments_->setCurrentIndex((std::max(instruments_->currentIndex(), 0) + step) % instruments_->count());
+}
+
+void DriveBox::choose(int index)
+{
+  const auto chosen = static_cast<std::size_t>(std::max(index, 0));
+  if (chosen < state_.scene.instruments.size())
+  {
+    const InstrumentSummary& instrument = state_.scene.instruments[chosen];
+    controls_.choose(instrument.shape.name, instrument.largest_speed, instrument.largest_turning_speed);
+  }
+  else
+    controls_.choose({}, 0.0, 0.0);
+  sendVelocity();
+}
+
+void DriveBox::press(Motion motion, OperatorControls::Source source)
+{
+  controls_.press(motion, source);
+  sendVelocity();
+}
+
+void DriveBox::release(Motion motion, OperatorControls::Source source)
+{
+  controls_.release(motion, source);
+  sendVelocity();
+}
+
+void DriveBox::setStick(double push, double twist)
+{
+  const bool is_held = push != 0.0 || twist != 0.0;
+  controls_.setStick(push, twist);
+  if (is_held || is_stick_held_)
+    sendVelocity();
+  is_stick_held_ = is_held;
+}
+
+void DriveBox::releaseAll()
+{
+  controls_.releaseAll();
+  port_.hold({});
+}
+
+void DriveBox::changePressure(double atmospheres)
+{
+  const std::size_t index = chosen();
+  if (index >= state_.scene.instruments.size() || index >= state_.wire.pressure.size() || !canDrive())
+    return;
+  const double present = state_.wire.pressure[index];
+  const double target =
+      atmospheres == 0.0 ? kVacuum : std::max(std::max(present, 0.0) + atmospheres * units::kAtmosphere, 0.0);
+  port_.changePressure(state_.scene.instruments[index].shape.name, target - present);
+}
+
+int DriveBox::speedSetting() const
+{
+  return speed_->value();
+}
+
+void DriveBox::setSpeedSetting(int setting)
+{
+  speed_->setValue(setting);
+}
+
+bool DriveBox::canDrive() const
+{
+  const std::size_t index = chosen();
+  return index < state_.scene.instruments.size() && state_.scene.instruments[index].takes_commands;
+}
+
+void DriveBox::sendVelocity()
+{
+  speed_text_->setText(QString("%1 mm/s, %2 °/s")
+                           .arg(1e3 * controls_.speed(), 0, 'f', 1)
+                           .arg(57.29578 * controls_.turningSpeed(), 0, 'f', 0));
+  port_.hold(canDrive() ? controls_.velocity() : HandVelocity{});
+}
+
+}  // namespace endovascular_sim::rviz_plugin

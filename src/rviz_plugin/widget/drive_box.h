@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+
+#include <QWidget>
+
+#include "rviz_plugin/model/operator_controls.h"
+#include "rviz_plugin/model/session_port.h"
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QSlider;
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Box of the panel that drives the chosen instrument: by its buttons, and by the motions of keys and sticks. */
+class DriveBox : public QWidget
+{
+public:
+  /** @param port, keys as of SessionRow */
+  DriveBox(SessionPort& port, QWidget& keys);
+
+  /** Takes over the instruments of a state. */
+  void takeOver(const SessionState& state);
+  /** Shows the texts of the state. @param takes_keys true if keys drive at present */
+  void showState(const PanelTexts& texts, bool takes_keys);
+
+  std::size_t chosen() const;  ///< index of the chosen instrument
+  void chooseNext(int step);   ///< chooses another instrument, after the last one the first
+  int instruments() const;     ///< number of instruments
+
+  void press(Motion motion, OperatorControls::Source source);
+  void release(Motion motion, OperatorControls::Source source);
+  void setStick(double push, double twist);  ///< as OperatorControls::setStick()
+  void releaseAll();
+
+  /** Changes the pressure of the chosen instrument's balloon.
+   *  @param atmospheres difference; 0: deflates it by vacuum */
+  void changePressure(double atmospheres);
+
+  int speedSetting() const;           ///< position of the speed slider, 0 to 100
+  void setSpeedSetting(int setting);  ///< as speedSetting()
+
+private:
+  QPushButton* motionButton(const QString& text, const QString& name, Motion motion);
+  QWidget* makeBalloonRow();
+  void choose(int index);
+  void sendVelocity();
+  bool canDrive() const;
+
+  SessionPort& port_;
+  QWidget& key_target_;
+  OperatorControls controls_;
+  bool is_stick_held_ = false;
+  SessionState state_;
+  QComboBox* instruments_;
+  QSlider* speed_;
+  std::array<QPushButton*, kMotions> motions_{};
+  QLabel *speed_text_, *keys_, *pressure_;
+  QWidget* balloon_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,29 @@
+#include "rviz_plugin/widget/panel_parts.h"
+
+#include <utility>
+
+#include <QLabel>
+#include <QPushButton>
+
+namespace endovascular_sim::rviz_plugin
+{
+
+QPushButton* panelButton(const QString& text, const QString& name, std::function<void()> clicked)
+{
+  auto* button = new QPushButton(text);
+  button->setObjectName(name);
+  button->setFocusPolicy(Qt::NoFocus);
+  if (clicked)
+    QObject::connect(button, &QPushButton::clicked, button, [clicked = std::move(clicked)] { clicked(); });
+  return button;
+}
+
+QLabel* panelLabel(const QString& name)
+{
+  auto* label = new QLabel("–");
+  label->setObjectName(name);
+  label->setTextFormat(Qt::PlainText);
+  return label;
+}
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,56 @@
+#include "rviz_plugin/widget/session_row.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+
+#include "rviz_plugin/widget/panel_parts.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr int kStatusWidth = 160;  // [pixels]
+
+}  // namespace
+
+SessionRow::SessionRow(SessionPort& port, QWidget& keys)
+{
+  const auto asking = [&port, &keys](Request request)
+  {
+    return [&port, &keys, request]
+    {
+      keys.setFocus();
+      port.request(request);
+    };
+  };
+  auto* layout = compact(new QGridLayout(this));
+  layout->addWidget(panelButton("Start", "start", asking(Request::kStart)), 0, 0);
+  layout->addWidget(panelButton("Pause", "pause", asking(Request::kPause)), 0, 1);
+  layout->addWidget(panelButton("Reset", "reset", asking(Request::kReset)), 0, 2);
+  record_ = panelButton("Record", "record",
+                        [this, asking]
+                        {
+                          // A recording holds a run from its first step: a new one begins with a reset.
+                          asking(is_recording_ ? Request::kStopRecording : Request::kReset)();
+                        });
+  layout->addWidget(record_, 0, 3);
+  status_ = panelLabel("status");
+  recording_ = panelLabel("recording");
+  layout->addWidget(status_, 1, 0, 1, 2);
+  layout->addWidget(recording_, 1, 2, 1, 2);
+}
+
+void SessionRow::showState(const SessionState& state, const PanelTexts& texts)
+{
+  is_recording_ = state.is_recording;
+  record_->setText(is_recording_ ? "Stop rec." : "Record");
+  // One line: buttons below must not move under the mouse. The reason is among the errors.
+  const QString status = QString::fromStdString(texts.status);
+  status_->setText(status_->fontMetrics().elidedText(status, Qt::ElideRight, kStatusWidth));
+  status_->setToolTip(status);
+  recording_->setText(QString::fromStdString(texts.recording));
+}
+
+}  // namespace endovascular_sim::rviz_plugin

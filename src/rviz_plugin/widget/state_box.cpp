@@ -1,0 +1,108 @@
+#include "rviz_plugin/widget/state_box.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <QFormLayout>
+#include <QLabel>
+#include <QProgressBar>
+
+#include "rviz_plugin/widget/panel_parts.h"
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr std::size_t kMostTexts = 3;  // of the shown errors, and of the warnings
+
+QString gaugeColour(int share)
+{
+  return share < 50 ? "#3c9d4e" : share < 80 ? "#d9a018" : "#c62f2f";
+}
+
+QStringList firstTexts(const std::vector<std::string>& texts)
+{
+  QStringList shown;
+  for (std::size_t k = 0; k < std::min(texts.size(), kMostTexts); ++k)
+    shown << QString::fromStdString(texts[k]);
+  if (texts.size() > kMostTexts)
+    shown << QString("and %1 more").arg(texts.size() - kMostTexts);
+  return shown;
+}
+
+QStringList answersOf(const SessionState& state)
+{
+  QStringList answers;
+  for (const std::string& service : state.waiting)
+    answers.append("waiting for " + QString::fromStdString(service));
+  if (!state.answer.empty())
+    answers.append(QString::fromStdString(state.answer));
+  return answers;
+}
+
+QStringList errorsOf(const SessionState& state)
+{
+  QStringList errors = firstTexts(state.errors);
+  if (state.dead_man_stops > 0)
+    errors.prepend(QString("the window was too slow: motions stopped %1 times").arg(state.dead_man_stops));
+  return errors;
+}
+
+}  // namespace
+
+StateBox::StateBox()
+{
+  auto* layout = new QFormLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setVerticalSpacing(2);
+  gauge_ = new QProgressBar;
+  gauge_->setObjectName("gauge");
+  gauge_->setRange(0, 100);
+  layout->addRow(gauge_);
+  const std::pair<const char*, QLabel**> rows[] = {
+      {"Force", &force_},   {"Insertion", &insertion_}, {"Rotation", &rotation_}, {"Torque", &torque_},
+      {"Branch", &branch_}, {"Time", &time_},           {"Procedure", &step_}};
+  for (const auto& [text, target] : rows)
+  {
+    *target = panelLabel(QString(text).toLower());
+    layout->addRow(text, *target);
+  }
+  step_->setWordWrap(true);
+  const struct
+  {
+    const char* name;
+    QLabel** target;
+    const char* style;
+  } texts[] = {{"hint", &hint_, "background: #fff6d6; color: #4a3c00; padding: 4px"},
+               {"answer", &answer_, ""},
+               {"errors", &errors_, "color: #c62f2f"},
+               {"warnings", &warnings_, "color: #606060"}};
+  for (const auto& text : texts)
+  {
+    *text.target = panelLabel(text.name);
+    (*text.target)->setWordWrap(true);
+    (*text.target)->setStyleSheet(text.style);
+    layout->addRow(*text.target);
+  }
+}
+
+void StateBox::showState(const SessionState& state, const PanelTexts& texts)
+{
+  const std::pair<QLabel*, const std::string*> shown[] = {
+      {insertion_, &texts.insertion}, {rotation_, &texts.rotation}, {force_, &texts.force}, {torque_, &texts.torque},
+      {branch_, &texts.branch},       {time_, &texts.time},         {step_, &texts.step},   {hint_, &texts.hint}};
+  for (const auto& [target, text] : shown)
+    target->setText(QString::fromStdString(*text));
+  hint_->setVisible(!texts.hint.empty());
+  gauge_->setValue(texts.gauge);
+  gauge_->setFormat(QString("%1 % of the force limit").arg(texts.gauge));
+  gauge_->setStyleSheet(QString("QProgressBar::chunk { background: %1 }").arg(gaugeColour(texts.gauge)));
+  answer_->setText(answersOf(state).join("\n"));
+  errors_->setText(errorsOf(state).join("\n"));
+  warnings_->setText(firstTexts(state.warnings).join("\n"));
+}
+
+}  // namespace endovascular_sim::rviz_plugin

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <QWidget>
+
+#include "rviz_plugin/model/session_state.h"
+
+class QLabel;
+class QProgressBar;
+
+namespace endovascular_sim::rviz_plugin
+{
+
+/** Box of the panel with the state of the chosen instrument and of the session: forces, procedure, errors. */
+class StateBox : public QWidget
+{
+public:
+  StateBox();
+
+  void showState(const SessionState& state, const PanelTexts& texts);
+
+private:
+  QProgressBar* gauge_;
+  QLabel *force_, *insertion_, *rotation_, *torque_, *branch_, *time_, *step_, *hint_, *answer_, *errors_, *warnings_;
+};
+
+}  // namespace endovascular_sim::rviz_plugin
