@@ -18,16 +18,6 @@ using drive::OperatingState;
 
 constexpr double kRounding = 1e-12;  ///< rounding error of a sum of relative commands, relative to the limit
 
-bool isByRate(CommandKind kind)
-{
-  return kind == CommandKind::kServoVelocity || kind == CommandKind::kServoForce;
-}
-
-bool isRelative(CommandKind kind)
-{
-  return kind == CommandKind::kServoRelative || kind == CommandKind::kMoveRelative;
-}
-
 bool isAbsolute(CommandKind kind)
 {
   return kind == CommandKind::kServoPosition || kind == CommandKind::kMovePosition;
@@ -146,7 +136,7 @@ CommandVerdict RobotControl::examineLimits(std::size_t link, CommandKind kind, d
                                            bool& clamped) const
 {
   const Joint& joint = *model_.find(links_[link].joint);
-  const Axis& axis = channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)];
+  const PlayAxis& axis = channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)];
   std::optional<drive::Interval> permitted = joint.range;
   double origin = 0.0;  // of a relative command
   if (isByRate(kind))
@@ -205,29 +195,6 @@ CommandVerdict RobotControl::examine(const std::string& client, CommandKind kind
   return CommandVerdict::kAccepted;
 }
 
-/** Value for the instrument of one joint's value. */
-double RobotControl::convert(Axis& axis, CommandKind kind, double value) const
-{
-  const JointLink& link = links_[*axis.link];
-  if (isByRate(kind))
-  {
-    const double rate = kind == CommandKind::kServoVelocity ? link.ratio * value : value / link.ratio;
-    axis.rate = rate;
-    axis.engaged = isEngaged(axis.driven, axis.driving, link.backlash, rate);
-    if (kind == CommandKind::kServoForce && rate != 0.0)
-      axis.driving = axis.driven + std::copysign(0.5 * link.backlash, rate);
-    return rate;
-  }
-  axis.rate = 0.0;
-  const double origin = kind == CommandKind::kMoveRelative ? axis.setpoint : axis.driven;
-  if (kind == CommandKind::kMoveRelative)
-    axis.driving = drivingAfterPlay(axis.driving, axis.setpoint, link.backlash);
-  axis.driving = isRelative(kind) ? axis.driving + link.ratio * value : link.toMotion(value);
-  axis.wanted = axis.driving;
-  axis.driven = drivenAfterPlay(origin, axis.driving, link.backlash);
-  return isRelative(kind) ? axis.driven - origin : axis.driven;
-}
-
 /** Command to one instrument.
  *  @param channel of the instrument, with the sides of its plays after the command
  *  @return none if the values concern no joint of the instrument, or if a force lacks that of the insertion */
@@ -238,17 +205,17 @@ std::optional<InstrumentCommand> RobotControl::convert(std::size_t instrument, C
   bool any = false;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    Axis& axis = channel.axes[k];
+    PlayAxis& axis = channel.axes[k];
     axis.rate = 0.0;
     if (!axis.link || !values[*axis.link])
       continue;
-    motions[k] = convert(axis, kind, *values[*axis.link]);
+    motions[k] = axis.command(links_[*axis.link], kind, *values[*axis.link]);
     any = true;
   }
   if (!any || (kind == CommandKind::kServoForce && !motions[0]))
     return std::nullopt;
   channel.kind = kind;
-  const auto held = [kind](const Axis& axis)
+  const auto held = [kind](const PlayAxis& axis)
   {
     return kind == CommandKind::kServoPosition ? axis.driven : kind == CommandKind::kMovePosition ? axis.setpoint : 0.0;
   };
@@ -283,7 +250,7 @@ RobotAnswer RobotControl::command(const std::string& client, CommandKind kind, c
   for (std::size_t k = 0; k < channels.size(); ++k)
   {
     const bool concerned = std::any_of(channels[k].axes.begin(), channels[k].axes.end(),
-                                       [&](const Axis& axis) { return axis.link && (*assigned)[*axis.link]; });
+                                       [&](const PlayAxis& axis) { return axis.link && (*assigned)[*axis.link]; });
     if (!concerned)
       continue;
     const std::optional<InstrumentCommand> converted = convert(k, kind, *assigned, channels[k]);
@@ -328,7 +295,7 @@ void RobotControl::followInstruments(double time)
   {
     channel.kind = CommandKind::kServoVelocity;
     channel.commanded_at = time;
-    for (Axis& axis : channel.axes)
+    for (PlayAxis& axis : channel.axes)
       axis.rate = 0.0;
   }
 }
@@ -337,8 +304,8 @@ void RobotControl::followInstruments(double time)
 std::optional<InstrumentCommand> RobotControl::rates(std::size_t instrument) const
 {
   const Channel& channel = channels_[instrument];
-  const auto rate = [](const Axis& axis) { return axis.engaged ? axis.rate : 0.0; };
-  const Axis& rotation = channel.axes[1];
+  const auto rate = [](const PlayAxis& axis) { return axis.engaged ? axis.rate : 0.0; };
+  const PlayAxis& rotation = channel.axes[1];
   return InstrumentCommand{instrument,
                            {CommandKind::kServoVelocity, rate(channel.axes[0]),
                             rotation.link ? std::optional<double>(rate(rotation)) : std::nullopt, std::nullopt}};
@@ -351,27 +318,12 @@ std::optional<InstrumentCommand> RobotControl::follow(std::size_t instrument, co
   const double dt = std::clamp(time - channel.followed_at, 0.0, instruments_[instrument].time_out);
   const double silence = time - channel.commanded_at;
   const bool is_over = silence < 0.0 || silence >= instruments_[instrument].time_out;
-  const bool by_rate = isByRate(channel.kind);
   channel.followed_at = time;
   bool has_engaged = false;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    Axis& axis = channel.axes[k];
-    axis.setpoint = setpoint[k];
-    if (!by_rate && !is_over)
-      continue;  // the command may not have arrived yet
-    axis.driven = setpoint[k];
-    const double width = play(axis);
-    if (by_rate && !is_over && axis.rate != 0.0)
-    {
-      const bool moves = axis.engaged || channel.kind == CommandKind::kServoForce;
-      axis.driving = moves ? axis.driven + std::copysign(0.5 * width, axis.rate) : axis.driving + axis.rate * dt;
-      axis.engaged = moves || isEngaged(axis.driven, axis.driving, width, axis.rate);
-      has_engaged = has_engaged || axis.engaged != moves;
-    }
-    if (by_rate)
-      axis.wanted = axis.driving;
-    axis.driving = drivingAfterPlay(axis.wanted, axis.driven, width);  // a move may outlast the time-out
+    PlayAxis& axis = channel.axes[k];
+    has_engaged = axis.follow(setpoint[k], channel.kind, is_over, dt, play(axis)) || has_engaged;
   }
   return has_engaged && channel.kind == CommandKind::kServoVelocity ? rates(instrument) : std::nullopt;
 }
@@ -397,7 +349,7 @@ drive::ControlState RobotControl::state() const
 
 double RobotControl::position(std::size_t link, double motion) const
 {
-  const Axis& axis = channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)];
+  const PlayAxis& axis = channels_[instrument_of_[link]].axes[indexOf(links_[link].motion)];
   return links_[link].toPosition(drivingAfterPlay(axis.driving, motion, links_[link].backlash));
 }
 

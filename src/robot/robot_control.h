@@ -11,6 +11,7 @@
 #include "drive/hand_control.h"
 #include "drive/joint_command.h"
 #include "robot/joint_link.h"
+#include "robot/play_axis.h"
 #include "robot/robot_model.h"
 
 namespace endovascular_sim::robot
@@ -105,20 +106,9 @@ public:
   const drive::Arbiter& arbiter() const { return arbiter_; }
 
 private:
-  /** Sides of the play of one motion, in its unit. A motion without a joint has no play. */
-  struct Axis
-  {
-    std::optional<std::size_t> link;
-    double wanted = 0.0;    ///< motion of the joint that was commanded last
-    double driving = 0.0;   ///< motion of the joint
-    double driven = 0.0;    ///< motion of the instrument, as last commanded
-    double setpoint = 0.0;  ///< motion of the instrument at the last step
-    double rate = 0.0;      ///< commanded velocity, or the sign of the force
-    bool engaged = false;   ///< true: a commanded velocity moves the instrument, not only the joint in its play
-  };
   struct Channel
   {
-    std::array<Axis, 3> axes;
+    std::array<PlayAxis, 3> axes;
     drive::CommandKind kind = drive::CommandKind::kServoPosition;  ///< of the last command
     double commanded_at = -1e300;                                  ///< time of the last command [s]
     double followed_at = 0.0;                                      ///< time of the last setpoint [s]
@@ -135,8 +125,7 @@ private:
   bool isReady(std::size_t instrument, drive::CommandKind kind, std::string& reason) const;
   std::optional<InstrumentCommand> convert(std::size_t instrument, drive::CommandKind kind, const Values& values,
                                            Channel& channel) const;
-  double convert(Axis& axis, drive::CommandKind kind, double value) const;
-  double play(const Axis& axis) const { return axis.link ? links_[*axis.link].backlash : 0.0; }
+  double play(const PlayAxis& axis) const { return axis.link ? links_[*axis.link].backlash : 0.0; }
   void followInstruments(double time);
   std::optional<InstrumentCommand> rates(std::size_t instrument) const;
   RobotAnswer reject(const std::string& client, drive::CommandKind kind, drive::CommandVerdict verdict,
