@@ -246,10 +246,11 @@ void Simulation::moveWire(const rod::StepInput& input, double dt, std::uint32_t&
                         state_.valve_torque * (state_.rotation - rotation));
 }
 
-bool Simulation::isBeyondGrip() const
+/** True where a hand of a state bears more than its grip. */
+bool Simulation::isBeyondGrip(const rod::State& state) const
 {
   for (int k = 0; k < instruments(); ++k)
-    if (!drive::GripSearch::isWithin(hand(k).force, scene_.instruments[k].drive.force_limit))
+    if (!drive::GripSearch::isWithin(rod::handleState(state, k).force, scene_.instruments[k].drive.force_limit))
       return true;
   return false;
 }
@@ -269,14 +270,15 @@ drive::GripSearch Simulation::gripSearch() const
 }
 
 /** Steps the wire. A hand that would bear more than its grip slips: the sub-step is repeated until no hand does. Where
- *  no such positions are found, the friction between the instruments yields. */
+ *  no such positions are found, the friction between the instruments yields. Where that does not help, as beside a snap of
+ *  the wire, the instruments rest for the sub-step, and the hands slip. */
 void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   before_ = state_;
   if (observer_ != nullptr)
     observer_->keep();
   moveWire(input, dt, pass);
-  if (!scene_.introducer || !report_.solved || !isBeyondGrip())
+  if (!scene_.introducer || !report_.solved || !isBeyondGrip(state_))
     return;
   const std::vector<rod::LayerInput> wanted = handles_;
   drive::GripSearch search = gripSearch();
@@ -302,15 +304,27 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
       handles_[k].inserted_length = hand_positions_[k];
     repeat();
   }
-  if (report_.solved && !stepper_->contactSet().stale && isBeyondGrip())
+  if (report_.solved && !stepper_->contactSet().stale && isBeyondGrip(state_))
   {
     for (int k = 0; k < instruments(); ++k)
       handles_[k].most_force = scene_.instruments[k].drive.force_limit;
     repeat();
   }
+  if (report_.solved && isBeyondGrip(state_) && !isBeyondGrip(before_))
+    rest();
   for (int k = 0; report_.solved && k < instruments(); ++k)
     hands_[k].noteSlip(rod::handleState(before_, k).inserted_length, wanted[k].inserted_length,
                        handles_[k].inserted_length);
+}
+
+/** Undoes the sub-step. */
+void Simulation::rest()
+{
+  setState(before_);
+  if (observer_ != nullptr)
+    observer_->revert();
+  for (int k = 0; k < instruments(); ++k)
+    handles_[k].inserted_length = rod::handleState(before_, k).inserted_length;
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */

@@ -157,7 +157,8 @@ private:
   void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
   void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);
-  bool isBeyondGrip() const;
+  bool isBeyondGrip(const rod::State& state) const;
+  void rest();
   drive::GripSearch gripSearch() const;
 
   scene::Scene scene_;
