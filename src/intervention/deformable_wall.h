@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "geometry/triangle_mesh.h"
 #include "intervention/balloon_load.h"
 
 namespace endovascular_sim
@@ -27,6 +28,9 @@ public:
   virtual void activate(std::uint64_t version) = 0;
 
   virtual std::uint64_t version() const = 0;  ///< version last returned by applyLoad(), or the initial version
+
+  /** Present mesh of the wall; null if another process keeps it. */
+  virtual const geometry::TriangleMesh* mesh() const { return nullptr; }
 
   /** True if the wall has been stretched beyond the critical stretch anywhere, as last reported. */
   virtual bool atRisk() const = 0;

@@ -49,6 +49,9 @@ public:
   const std::vector<simulation::HandCommand>& advance(double end_time) { return hands_.advance(scene_, end_time); }
   /** @} */
 
+  /** Commands of the last call of next() or advance(). */
+  const std::vector<simulation::HandCommand>& commands() const { return hands_.commands(); }
+
   Progress progress() const { return progress_; }
   /** Description of the failure: step, reason, position of the tip; empty without a failure. */
   const std::string& failure() const { return failure_; }

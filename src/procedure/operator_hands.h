@@ -44,6 +44,9 @@ public:
    *  @param end_time time at the end of the step [s] */
   const std::vector<drive::HandCommand>& advance(const scene::Scene& scene, double end_time);
 
+  /** Commands of the last advance(). */
+  const std::vector<drive::HandCommand>& commands() const { return commands_; }
+
   /** Saves or loads the state. */
   void archive(Archive& archive);
 

@@ -67,7 +67,24 @@ struct Session::Run
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null unless an instrument has a balloon
   simulation::Simulation simulation;
+  const std::vector<simulation::HandCommand>* scriptedCommands()
+  {
+    if (scripted && observed_steps != simulation.steps() + 1)
+    {
+      scripted->next(simulation);
+      observed_steps = simulation.steps() + 1;
+    }
+    return scripted ? &scripted->commands() : nullptr;
+  }
+
+  /** Wall that balloons deform; null without one. */
+  const intervention::DeformableWall* deformable(const SessionSettings& settings) const
+  {
+    return settings.wall ? settings.wall.get() : wall.get();
+  }
+
   std::optional<procedure::Operator> scripted;
+  std::uint64_t observed_steps = 0;  ///< number of steps, with the one for which the operator has given its commands
   simulation::DrivenHands hands;
   simulation::RobotHardware hardware;
   Observation observation;
@@ -174,7 +191,7 @@ bool Session::isOver() const
 const std::vector<simulation::HandCommand>& Session::nextCommands()
 {
   Run& run = this->run();
-  const std::vector<simulation::HandCommand>* scripted = run.scripted ? &run.scripted->next(run.simulation) : nullptr;
+  const std::vector<simulation::HandCommand>* scripted = run.scriptedCommands();
   if (settings_.clients)
     return run.hands.next(run.simulation, scripted, &run.hardware.faults());
   if (scripted != nullptr)
@@ -182,6 +199,11 @@ const std::vector<simulation::HandCommand>& Session::nextCommands()
   const double end = static_cast<double>(run.simulation.steps() + 1) * run.scene->solver.time_step;
   run.commands = simulation::commandsAt(*run.scene, end);
   return run.commands;
+}
+
+const std::vector<simulation::HandCommand>* Session::scriptedCommands()
+{
+  return run().scriptedCommands();
 }
 
 void Session::advance(const std::vector<simulation::HandCommand>& commands)
@@ -233,8 +255,7 @@ void Session::step(const std::vector<simulation::HandCommand>& commands, int ste
   Run& run = this->run();
   for (int k = 0; k < steps; ++k)
   {
-    if (run.scripted)
-      run.scripted->next(run.simulation);
+    run.scriptedCommands();
     advance(commands);
   }
 }
@@ -322,7 +343,8 @@ const fluoroscopy::Frame& Session::image(const std::string& view)
   Run& run = this->run();
   imaging_->image.setView(view);
   imaging_->image.restart();
-  const std::uint64_t version = run.wall ? run.wall->version() : 0;
+  const intervention::DeformableWall* deformable = run.deformable(settings_);
+  const std::uint64_t version = deformable != nullptr ? deformable->version() : 0;
   const bool moved = std::exchange(imaging_->wall, version) != version;
   return imaging_->image.frame(run.simulation, moved ? &wall() : nullptr);
 }
@@ -330,22 +352,25 @@ const fluoroscopy::Frame& Session::image(const std::string& view)
 const geometry::TriangleMesh& Session::wall() const
 {
   static const geometry::TriangleMesh none;
-  if (run().wall)
-    return run().wall->opening().mesh();
+  const intervention::DeformableWall* deformable = run().deformable(settings_);
+  if (deformable != nullptr && deformable->mesh() != nullptr)
+    return *deformable->mesh();
   return world_->vessel() != nullptr ? world_->vessel()->mesh : none;
 }
 
-std::string Session::save()
+std::string Session::save(const std::function<void(Archive&)>& clients)
 {
   Run& run = this->run();
   std::ostringstream stream;
   run.simulation.save(stream, world_->meshHash(),
-                      [this, &run](Archive& archive)
+                      [this, &run, &clients](Archive& archive)
                       {
                         if (run.scripted)
                           archive(*run.scripted);
                         const bool has_hardware = run.hardware.needsSaving();
-                        if (settings_.clients || run.seed != 0 || has_hardware)
+                        if (clients)
+                          clients(archive);
+                        else if (settings_.clients || run.seed != 0 || has_hardware)
                           archive(run.hands);
                         if (run.seed != 0 || has_hardware)
                           archive(run.seed);
@@ -355,7 +380,7 @@ std::string Session::save()
   return stream.str();
 }
 
-void Session::load(const std::string& state, const std::string& origin)
+void Session::load(const std::string& state, const std::string& origin, const LoadClients& clients)
 {
   run();
   std::unique_ptr<Run> loaded;
@@ -370,7 +395,9 @@ void Session::load(const std::string& state, const std::string& origin)
                               seed = 0;
                               if (loaded->scripted)
                                 archive(*loaded->scripted);
-                              if (archive.atEnd())
+                              if (clients)
+                                clients(archive.atEnd() ? nullptr : &archive, loaded->simulation);
+                              else if (archive.atEnd())
                                 loaded->hands.restAt(loaded->simulation);
                               else
                                 archive(loaded->hands);

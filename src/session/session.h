@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct SessionSettings
    *  own, a scene with a balloon needs such a wall, too. */
   std::shared_ptr<intervention::DeformableWall> wall;
 };
+
+/** Loads controls of clients that a caller keeps. @param archive null: the state has none */
+using LoadClients = std::function<void(Archive* archive, const simulation::Simulation& loaded)>;
 
 /** Run of a scene: instruments, their drives, the scripted operator of a procedure, and on demand images and results.
  *
@@ -89,9 +93,12 @@ public:
    *  @return number of steps made */
   int step(int steps = 1);
 
+  /** Commands of the operator for the next step, one per instrument; null without one. It observes once a step. */
+  const std::vector<simulation::HandCommand>* scriptedCommands();
+
   /** Advances by steps with the same commands in each, also beyond the end. The operator observes these steps, but its
    *  commands are not used.
-   *  @param commands one per instrument of the scene, in its order
+   *  @param commands one per instrument of the scene, in its order; those of scriptedCommands() are accepted
    *  @throws std::invalid_argument unless there is one finite command for every instrument, with a pressure for
    *          instruments with a balloon only */
   void step(const std::vector<simulation::HandCommand>& commands, int steps = 1);
@@ -151,7 +158,8 @@ public:
    *  @throws InputError for a scene without fluoroscopy, an unknown view, or a patient that cannot be loaded */
   const fluoroscopy::Frame& image(const std::string& view = "");
 
-  /** Present wall of the vessel, deformed by a balloon in this process; empty without a vessel. */
+  /** Present wall of the vessel, deformed by a balloon in this process; empty without a vessel. With a wall of another
+   *  process, the initial one. */
   const geometry::TriangleMesh& wall() const;
 
   // ----------------------------------------------------------------------------------------------------------- saving
@@ -159,13 +167,21 @@ public:
   /** State on which the further trajectory depends, with operator, controls and seed. `simulate --from-state` and
    *  `rod_dynamics` load it, too, unless its seed is other than 0.
    *  @throws InputError for a scheme that cannot be saved */
-  std::string save();
+  std::string save() { return save({}); }
+
+  /** As save(), with controls of clients that the caller keeps in place of those of the session.
+   *  @param clients archives them */
+  std::string save(const std::function<void(Archive&)>& clients);
 
   /** Continues from a state of save(), of `simulate --save-state` or of `rod_dynamics`, bit for bit as the session that
    *  was saved. Results, and sums over past steps, begin at the state. A refused state has no effect.
    *  @param origin names the state in errors
    *  @throws InputError for a damaged state, or one of another version, scene or vessel */
-  void load(const std::string& state, const std::string& origin = "state");
+  void load(const std::string& state, const std::string& origin = "state") { load(state, origin, {}); }
+
+  /** As load(), with controls of clients that the caller keeps.
+   *  @param clients loads them; it may be called before the state is refused */
+  void load(const std::string& state, const std::string& origin, const LoadClients& clients);
 
   /** Takes over the state of a scene with other parameters, e.g. friction, stiffness or limits, but the same
    *  instruments, nodes and vessel (World::with()). The commands of the drives go on at the time of the state. A

@@ -50,12 +50,16 @@ std::shared_ptr<const World> World::make(scene::Scene scene, const ProgressRepor
   std::optional<vessel::Vessel> vessel = vesselOf(scene, progress);
   if (vessel && prepared)
     prepared(*vessel);
-  return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel), progress));
+  std::shared_ptr<const World> world(new World(std::move(scene), std::move(vessel)));
+  if (world->vessel() != nullptr)
+    reportProgress(progress, "search tree of the wall");
+  world->wall();
+  return world;
 }
 
 std::shared_ptr<const World> World::make(scene::Scene scene, std::optional<vessel::Vessel> vessel)
 {
-  return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel), {}));
+  return std::shared_ptr<const World>(new World(std::move(scene), std::move(vessel)));
 }
 
 std::shared_ptr<const World> World::make(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
@@ -68,13 +72,12 @@ std::shared_ptr<const World> World::make(scene::Scene scene, std::shared_ptr<con
 
 std::shared_ptr<const World> World::with(scene::Scene scene) const
 {
-  std::shared_ptr<const World> made = make(std::move(scene), vessel_, wall_, entry_);
+  std::shared_ptr<const World> made = make(std::move(scene), vessel_, wall(), entry_);
   made->requireStart(made->scene());
   return made;
 }
 
-World::World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const ProgressReport& progress)
-  : scene_(std::move(scene))
+World::World(scene::Scene scene, std::optional<vessel::Vessel> vessel) : scene_(std::move(scene))
 {
   if (!vessel)
   {
@@ -83,8 +86,6 @@ World::World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const Pro
   }
   entry_ = scene::resolveStart(scene_, *vessel);
   mesh_hash_ = vessel->mesh.hash();
-  reportProgress(progress, "search tree of the wall");
-  wall_ = contact::WallModel::create(vessel->mesh, scene_.vessel->wall);
   vessel_ = std::make_shared<const vessel::Vessel>(std::move(*vessel));
 }
 
@@ -96,6 +97,17 @@ World::World(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
     entry_(entry),
     wall_(std::move(wall))
 {
+}
+
+const std::shared_ptr<const contact::WallModel>& World::wall() const
+{
+  std::call_once(wall_prepared_,
+                 [this]
+                 {
+                   if (!wall_ && vessel_)
+                     wall_ = contact::WallModel::create(vessel_->mesh, scene_.vessel->wall);
+                 });
+  return wall_;
 }
 
 const std::shared_ptr<const procedure::BranchLocator>& World::branches() const

@@ -51,7 +51,7 @@ public:
   static std::shared_ptr<const World> make(scene::Scene scene, const ProgressReport& progress = {},
                                            const std::function<void(const vessel::Vessel&)>& prepared = {});
 
-  /** World of a loaded scene with a given vessel, e.g. that of a recording.
+  /** World of a loaded scene with a given vessel, e.g. that of a recording. The wall is prepared by its first use.
    *  @param vessel empty for a scene without one
    *  @throws InputError when the entry or an initial insertion does not fit the vessel */
   static std::shared_ptr<const World> make(scene::Scene scene, std::optional<vessel::Vessel> vessel);
@@ -83,7 +83,7 @@ public:
   std::uint64_t meshHash() const { return mesh_hash_; }
 
   /** Wall prepared for contact detection; null without a vessel. */
-  const std::shared_ptr<const contact::WallModel>& wall() const { return wall_; }
+  const std::shared_ptr<const contact::WallModel>& wall() const;
 
   /** Pose of the introducer, or of the proximal end without one. */
   const scene::EntryPose& entry() const { return entry_; }
@@ -100,7 +100,7 @@ public:
   void requireStart(const scene::Scene& scene) const;
 
 private:
-  World(scene::Scene scene, std::optional<vessel::Vessel> vessel, const ProgressReport& progress);
+  World(scene::Scene scene, std::optional<vessel::Vessel> vessel);
   World(scene::Scene scene, std::shared_ptr<const vessel::Vessel> vessel,
         std::shared_ptr<const contact::WallModel> wall, const scene::EntryPose& entry);
 
@@ -108,8 +108,8 @@ private:
   std::shared_ptr<const vessel::Vessel> vessel_;  ///< null without one
   std::uint64_t mesh_hash_ = 0;
   scene::EntryPose entry_;
-  std::shared_ptr<const contact::WallModel> wall_;
-  mutable std::once_flag branches_known_, patient_loaded_, free_length_known_;
+  mutable std::shared_ptr<const contact::WallModel> wall_;
+  mutable std::once_flag wall_prepared_, branches_known_, patient_loaded_, free_length_known_;
   mutable std::shared_ptr<const procedure::BranchLocator> branches_;
   mutable XRayVolume patient_;
   mutable double free_length_ = 0.0;  ///< from the entry to the wall along its direction [m]

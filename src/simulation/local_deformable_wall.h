@@ -29,9 +29,8 @@ public:
   std::uint64_t applyLoad(std::uint64_t step, const intervention::BalloonLoad& load) override;
   void activate(std::uint64_t version) override;
   std::uint64_t version() const override { return history_.newest(); }
+  const geometry::TriangleMesh* mesh() const override { return &opening_.mesh(); }
   bool atRisk() const override { return opening_.atRisk(); }
-
-  const intervention::VesselDilatation& opening() const { return opening_; }
 
   void archive(Archive& archive) override;
 

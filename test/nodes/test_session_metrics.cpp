@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,8 +17,6 @@
 
 #include "nodes/session/recorded_simulation.h"
 #include "nodes/session/session_bag.h"
-#include "session/run_record.h"
-#include "simulation/contact_forces.h"
 #include "test/nodes/graph_testing.h"
 
 namespace endovascular_sim::nodes
@@ -85,29 +82,18 @@ Json offlineMetrics(const std::string& file)
 {
   const SessionBag recording = readSessionBag(file);
   EXPECT_EQ(incompleteness(recording), "");
-  RecordedSimulation recorded(recording, file);
-  const simulation::Simulation& simulation = recorded.simulation();
-  const std::shared_ptr<const session::World> world = session::World::make(recorded.scene(), recorded.vessel());
-  session::RunRecord record(world, {world, &world->scene()}, 0);
-  std::optional<procedure::Operator> hand;
-  if (world->scene().procedure)
-    hand.emplace(world->scene(), world->branches(), world->entry().position);
+  RecordedSimulation recorded(recording, file, true);
   for (const auto& [step, applied] : recording.steps)
   {
-    if (hand && hand->progress() != procedure::Progress::kRunning)
+    if (recorded.session().isOver())
       break;
-    const double end = static_cast<double>(step + 1) * world->scene().solver.time_step;
-    const std::vector<simulation::HandCommand> commands =
-        hand ? hand->next(simulation) : simulation::commandsAt(world->scene(), end);
-    for (std::size_t k = 0; k < commands.size(); ++k)
-      EXPECT_EQ(commands[k].insertion, applied->insertion[k]) << "step " << step;
-    recorded.step(*applied);
-    EXPECT_EQ(simulation.stateHash(), applied->state_hash) << "step " << step;
-    record.addStep(simulation, simulation::wallContacts(simulation), 0.0);
+    recorded.stepByScene(*applied);
+    EXPECT_EQ(recorded.simulation().stateHash(), applied->state_hash) << "step " << step;
   }
-  record.finish(simulation, hand ? &*hand : nullptr,
-                recorded.wall() != nullptr ? recorded.wall()->opening().mesh() : recorded.vessel().mesh);
-  return record.metrics()->json();
+  const std::string folder = file + ".offline";
+  recorded.session().finish(folder);
+  std::filesystem::remove_all(folder);
+  return recorded.session().record().metrics()->json();
 }
 
 std::set<std::string> errorsOf(const Json& metrics)

@@ -30,7 +30,7 @@ constexpr double kSeconds = 10.5;  ///< simulated time of all commands [s]
 constexpr std::uint32_t kSteps = 10500;
 constexpr double kShort = 3.5;  ///< simulated time of the first commands [s]
 constexpr std::uint32_t kShortSteps = 3500;
-constexpr std::uint32_t kMostAhead = 5000;  ///< steps that may lie before the recorder (rod_dynamics_hold.cpp)
+constexpr std::uint32_t kMostAhead = 5000;  ///< steps that may lie before the recorder (step_obstacles.cpp)
 constexpr std::uint32_t kLongSteps = 7000;
 
 class Stepped : public testing::Test

@@ -477,6 +477,43 @@ TEST(Session, RefusesEveryUseAfterItWasMovedFrom)
   EXPECT_EQ(other.step(), 1);
 }
 
+TEST(Session, StepsByTheCommandsOfItsOperatorAsByItself)
+{
+  Session by_commands(tubeWithOperator());
+  Session by_itself(tubeWithOperator());
+  for (int step = 0; step < 300; ++step)
+  {
+    const std::vector<simulation::HandCommand>* commands = by_commands.scriptedCommands();
+    ASSERT_NE(commands, nullptr);
+    EXPECT_EQ(by_commands.scriptedCommands(), commands);  // asking again changes nothing
+    by_commands.step(*commands);
+  }
+  EXPECT_EQ(by_itself.step(300), 300);
+  EXPECT_EQ(by_commands.simulation().trajectoryHash(), by_itself.simulation().trajectoryHash());
+  EXPECT_EQ(Session(tube()).scriptedCommands(), nullptr);
+}
+
+TEST(Session, SavesAndLoadsControlsThatItsCallerKeeps)
+{
+  Session session(tubeWithOperator());
+  session.step(120);
+  double kept = 3.5;
+  const std::string state = session.save([&kept](Archive& archive) { archive(kept); });
+  kept = 0.0;
+  Session loaded(session.sharedWorld());
+  loaded.load(state, "state",
+              [&kept](Archive* archive, const simulation::Simulation& simulation)
+              {
+                EXPECT_EQ(simulation.steps(), 120U);
+                ASSERT_NE(archive, nullptr);
+                (*archive)(kept);
+              });
+  EXPECT_EQ(kept, 3.5);
+  EXPECT_EQ(hashAfter(loaded, 100), hashAfter(session, 100));
+  loaded.load(session.save(), "state",
+              [](Archive* archive, const simulation::Simulation&) { EXPECT_EQ(archive, nullptr); });
+}
+
 TEST(Session, TakesItsContactSetsFromAGivenSource)
 {
   SessionSettings settings;

@@ -13,7 +13,6 @@
 #include "nodes/runtime/diagnostics_publication.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
-#include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::nodes
 {
@@ -53,13 +52,8 @@ void FluoroscopyNode::processInput(const Work& work)
 
 FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& parameters, const scene::Scene& scene,
                                  SchedulingRequest request)
-  : scene_(scene),
-    system_(scene_, materialLibrary(parameters)),
-    settings_(*scene_.fluoroscopy),
-    fluoroscope_(system_.fluoroscope()),
-    gantry_(settings_.gantry, fluoroscope_.geometry().pose()),
-    needs_patient_(settings_.patient.has_value()),
-    isocentre_known_(settings_.isocentre.has_value()),
+  : rate_(scene.fluoroscopy->rate),
+    room_(scene, materialLibrary(parameters)),
     gantry_time_(ros::SteadyTime::now()),
     request_(std::move(request)),
     radiograph_{node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2),
@@ -71,7 +65,7 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
 {
   mesh_subscriber_ = subscribeGuarded<VesselMesh>(node, names::kVesselMesh, 1,
                                                   [this](const VesselMesh& message) { receiveMesh(message); });
-  if (needs_patient_)
+  if (room_.awaitsPatient())
     centreline_subscriber_ = subscribeGuarded<VesselCentreline>(
         node, names::kVesselCentreline, 1, [this](const VesselCentreline& message) { receiveCentreline(message); });
   rod_subscriber_ = subscribeGuarded<RodStateVisual>(node, names::kRodStateVisual, 1,
@@ -90,11 +84,10 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
   pose_publisher_ = node.advertise<tf2_msgs::TFMessage>("/tf", kPoseQueue, sendPose);
   static_broadcaster_.sendTransform(sourceViewTransform(ros::Time::now()));
   broadcastPose(ros::Time::now());
-  if (!needs_patient_)
+  if (!room_.awaitsPatient())
     grant_ = request_();
-  else if (!scene_.vessel)
-    loadPatient();
-  frame_timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / settings_.rate), &FluoroscopyNode::onFrame, this);
+  loadPatient();
+  frame_timer_ = node.createSteadyTimer(ros::WallDuration(1.0 / rate_), &FluoroscopyNode::onFrame, this);
   diagnostics_timer_ =
       node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod), &FluoroscopyNode::onDiagnostics, this);
 }
@@ -104,18 +97,7 @@ void FluoroscopyNode::receiveMesh(const VesselMesh& message)
   processInput(
       [&]
       {
-        geometry::TriangleMesh mesh = fromMessage(message);
-        if (!isocentre_known_ && !mesh.vertices.empty())
-        {
-          Eigen::AlignedBox3d box;
-          for (const Eigen::Vector3d& vertex : mesh.vertices)
-            box.extend(vertex);
-          placePatient(box.center());
-        }
-        if (needs_patient_)
-          vessel_.mesh = mesh;
-        fluoroscope_.setVessel(std::move(mesh));
-        has_mesh_ = true;
+        room_.setVessel(fromMessage(message));
         loadPatient();
       });
 }
@@ -125,7 +107,7 @@ void FluoroscopyNode::receiveCentreline(const VesselCentreline& message)
   processInput(
       [&]
       {
-        vessel_.centreline = fromMessage(message);
+        room_.setCentreline(fromMessage(message));
         loadPatient();
       });
 }
@@ -133,19 +115,13 @@ void FluoroscopyNode::receiveCentreline(const VesselCentreline& message)
 /** Loads the patient of the scene when mesh and centreline of its vessel are known. No frame is drawn before. */
 void FluoroscopyNode::loadPatient()
 {
-  const bool has_vessel = !vessel_.mesh.triangles.empty() && !vessel_.centreline.branches.empty();
-  if (!needs_patient_ || (scene_.vessel && !has_vessel))
+  if (!room_.canLoadPatient())
     return;
-  const vessel::Vessel vessel = std::exchange(vessel_, {});
   try
   {
     ROS_INFO("loading the patient; the first run with this vessel makes its body, which takes some seconds");
-    simulation::XRayPatient loaded =
-        simulation::loadPatient(scene_, vessel, simulation::sequenceResolution(settings_.rate));
-    for (const std::string& note : loaded.notes)
+    for (const std::string& note : room_.loadPatient())
       ROS_INFO("patient: %s", note.c_str());
-    fluoroscope_.setPatient(std::move(loaded.patient));
-    needs_patient_ = false;
   }
   catch (const InputError& error)
   {
@@ -160,18 +136,16 @@ void FluoroscopyNode::receiveRod(const RodStateVisual& message)
   processInput(
       [&]
       {
-        wires_ = toXRayWires(message, system_.instruments(), system_.fluids());
-        if (message.nodes.empty())
-          return;
-        tip_ = toEigen(message.nodes.back());
-        if (!scene_.vessel && !isocentre_known_)
-          placePatient(toEigen(message.nodes[message.nodes.size() / 2]));
+        std::vector<Eigen::Vector3d> nodes;
+        for (const geometry_msgs::Point& node : message.nodes)
+          nodes.push_back(toEigen(node));
+        room_.setWires(toXRayWires(message, room_.system().instruments(), room_.system().fluids()), nodes);
       });
 }
 
 void FluoroscopyNode::receiveTreatment(const TreatmentVisual& message)
 {
-  processInput([&] { treatment_ = toXRayWires(message, system_.filling(), system_.metal()); });
+  processInput([&] { room_.setTreatment(toXRayWires(message, room_.system().filling(), room_.system().metal())); });
 }
 
 void FluoroscopyNode::receiveCommand(const CArm& message)
@@ -179,23 +153,9 @@ void FluoroscopyNode::receiveCommand(const CArm& message)
   processInput(
       [&]
       {
-        const fluoroscopy::CArmPose target = toPose(message, gantry_.target());
-        const bool places_patient =
-            !isocentre_known_ && (message.view.empty() || !toEigen(message.isocentre).isZero(0.0));
-        fluoroscopy::Gantry commanded = gantry_;
-        if (places_patient && target.isocentre.allFinite())
-          commanded.placePatient(target.isocentre);
-        commanded.moveTo(target);
-        gantry_ = commanded;
-        isocentre_known_ = isocentre_known_ || places_patient;
+        const bool names_isocentre = message.view.empty() || !toEigen(message.isocentre).isZero(0.0);
+        room_.moveTo(toPose(message, room_.gantry().target()), names_isocentre);
       });
-}
-
-void FluoroscopyNode::placePatient(const Eigen::Vector3d& isocentre)
-{
-  gantry_.placePatient(isocentre);
-  applyPose();
-  isocentre_known_ = true;
 }
 
 void FluoroscopyNode::advanceGantry()
@@ -209,29 +169,7 @@ void FluoroscopyNode::advanceGantry()
     duration = std::max(duration, ros_now.toSec() - gantry_ros_time_.toSec());  // any two times have a difference
   gantry_time_ = now;
   gantry_ros_time_ = ros_now;
-  if (settings_.follow_tip && tip_ && isocentre_known_)
-  {
-    const fluoroscopy::CArmPose& pose = gantry_.pose();
-    const fluoroscopy::CArmPose panned = fluoroscopy::panToTip(pose, *tip_);
-    if (panned != pose)
-      gantry_.panTo(panned.isocentre);
-  }
-  if (gantry_.advance(duration))
-    applyPose();
-}
-
-/** Gives the pose of the gantry to the fluoroscope. The gantry stops in front of a collision. */
-void FluoroscopyNode::applyPose()
-{
-  try
-  {
-    fluoroscope_.setPose(gantry_.pose());
-  }
-  catch (const InputError&)
-  {
-    gantry_.stopAt(fluoroscope_.geometry().pose());
-    throw;
-  }
+  room_.advance(duration);
 }
 
 /** Publishes the pose on /tf. Simulated time may stand still, e.g. in a paused replay: a second pose of the same time
@@ -241,7 +179,7 @@ void FluoroscopyNode::broadcastPose(const ros::Time& stamp)
   if (stamp == broadcast_stamp_)
     return;
   broadcast_stamp_ = stamp;
-  pose_.transforms = {toTransform(stamp, fluoroscope_.geometry())};
+  pose_.transforms = {toTransform(stamp, room_.geometry())};
   pose_publisher_.publish(pose_);
   broadcast_time_ = ros::SteadyTime::now();
 }
@@ -253,12 +191,12 @@ bool FluoroscopyNode::hasSubscribers() const
 
 void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
 {
-  const fluoroscopy::CArmPose before = fluoroscope_.geometry().pose();
+  const fluoroscopy::CArmPose before = room_.geometry().pose();
   processInput([this] { advanceGantry(); });
-  const bool draws = hasSubscribers() && !needs_patient_ && (!scene_.vessel || has_mesh_);
+  const bool draws = hasSubscribers() && !room_.awaitsPatient() && !room_.awaitsVessel();
   const ros::Time stamp = ros::Time::now();
   const bool is_due = (ros::SteadyTime::now() - broadcast_time_).toSec() >= kRestPeriod;
-  if (draws || is_due || fluoroscope_.geometry().pose() != before)
+  if (draws || is_due || room_.geometry().pose() != before)
     broadcastPose(stamp);  // at frame rate too, so that an image need not wait for its pose
   if (draws)
     processInput([this, &stamp] { publishFrame(stamp); });
@@ -267,24 +205,22 @@ void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
 void FluoroscopyNode::publishFrame(const ros::Time& stamp)
 {
   const auto begin = std::chrono::steady_clock::now();
-  std::vector<fluoroscopy::XRayWire> wires = wires_;
-  wires.insert(wires.end(), treatment_.begin(), treatment_.end());
   const bool display = radiograph_.image.getNumSubscribers() + source_view_.image.getNumSubscribers() > 0;
-  const fluoroscopy::Frame& frame = fluoroscope_.render(wires, display);
+  const fluoroscopy::Frame& frame = room_.render(display);
   render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   ++frames_;
-  air_kerma_rate_ = frame.reference_kerma * settings_.rate;
+  air_kerma_rate_ = frame.reference_kerma * rate_;
   dose_limited_ = frame.dose_limited;
   std_msgs::Header header;
   header.stamp = stamp;
   header.frame_id = names::kXRaySourceFrame;
-  radiograph_.camera_info.publish(toCameraInfo(header, fluoroscope_.geometry()));
+  radiograph_.camera_info.publish(toCameraInfo(header, room_.geometry()));
   if (radiograph_.raw.getNumSubscribers() > 0)
     radiograph_.raw.publish(toImage(header, frame.pixels, frame.raw));
   if (radiograph_.image.getNumSubscribers() > 0)
     radiograph_.image.publish(toImage(header, frame.pixels, frame.image));
   header.frame_id = names::kXRaySourceViewFrame;
-  source_view_.camera_info.publish(toSourceViewInfo(header, fluoroscope_.geometry()));
+  source_view_.camera_info.publish(toSourceViewInfo(header, room_.geometry()));
   if (source_view_.raw.getNumSubscribers() > 0)
     source_view_.raw.publish(mirrored(toImage(header, frame.pixels, frame.raw)));
   if (source_view_.image.getNumSubscribers() > 0)
@@ -306,11 +242,11 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     std::nth_element(render_times_.begin(), middle, render_times_.end());
     median = *middle;
   }
-  if (scene_.vessel && !has_mesh_)
+  if (room_.awaitsVessel())
     status.summary(DiagnosticStatus::WARN, "waiting for the vessel");
   else if (!patient_error_.empty())
     status.summary(DiagnosticStatus::ERROR, patient_error_);
-  else if (needs_patient_)
+  else if (room_.awaitsPatient())
     status.summary(DiagnosticStatus::WARN,
                    "waiting for vessel/centreline, which determines the position of the patient");
   else if (!new_error_.empty())
@@ -322,8 +258,8 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("median render time [ms]", 1e3 * median);
   status.add("air kerma rate at the reference point [mGy/min]", 60e3 * air_kerma_rate_);
   status.add("dose limited", dose_limited_);
-  const fluoroscopy::CArmPose& pose = gantry_.pose();
-  status.add("C-arm moving", gantry_.isMoving());
+  const fluoroscopy::CArmPose& pose = room_.gantry().pose();
+  status.add("C-arm moving", room_.gantry().isMoving());
   status.add("primary angle, LAO positive [rad]", pose.primary_angle);
   status.add("secondary angle, cranial positive [rad]", pose.secondary_angle);
   status.add("scheduling", grant_.describe());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,16 +13,15 @@
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
-#include "fluoroscopy/gantry/gantry.h"
+#include "nodes/fluoroscopy/x_ray_room.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/real_time.h"
-#include "simulation/fluoroscopy_system.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** ROS node of fluoroscopy: moves the C-arm and its table at frame rate, and renders the images while one of their
- *  topics has a subscriber. */
+/** ROS node of fluoroscopy, an XRayRoom with topics: moves the C-arm and its table at frame rate, and renders the
+ * images while one of their topics has a subscriber. */
 class FluoroscopyNode
 {
 public:
@@ -42,9 +40,7 @@ private:
   void receiveRod(const RodStateVisual& message);
   void receiveTreatment(const TreatmentVisual& message);
   void receiveCommand(const CArm& message);
-  void placePatient(const Eigen::Vector3d& isocentre);
   void advanceGantry();
-  void applyPose();
   void broadcastPose(const ros::Time& stamp);
   bool hasSubscribers() const;
   void onFrame(const ros::SteadyTimerEvent& event);
@@ -56,19 +52,9 @@ private:
   template <typename Work>
   void processInput(const Work& work);
 
-  scene::Scene scene_;
-  simulation::FluoroscopySystem system_;
-  scene::FluoroscopyScene settings_;
-  fluoroscopy::Fluoroscope& fluoroscope_;
-  fluoroscopy::Gantry gantry_;
-  std::vector<fluoroscopy::XRayWire> wires_;
-  std::vector<fluoroscopy::XRayWire> treatment_;  ///< balloons and stents
-  std::optional<Eigen::Vector3d> tip_;            ///< tip of the instrument that reaches farthest [m]
-  bool has_mesh_ = false;
-  vessel::Vessel vessel_;       ///< vessel at rest, about which the patient is placed; empty afterwards
-  bool needs_patient_ = false;  ///< true: the scene has a patient that is not yet loaded
-  std::string patient_error_;   ///< reason why it cannot be loaded
-  bool isocentre_known_;
+  double rate_;  ///< of the frames [Hz]
+  XRayRoom room_;
+  std::string patient_error_;       ///< reason why the patient cannot be loaded
   ros::SteadyTime gantry_time_;     ///< time up to which the gantry has moved
   ros::Time gantry_ros_time_;       ///< the same
   ros::SteadyTime broadcast_time_;  ///< of the last pose on /tf

@@ -1,6 +1,6 @@
 #include "nodes/rod_dynamics/graph_simulation.h"
 
-#include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -13,7 +13,6 @@
 #include "nodes/runtime/latched_message.h"
 #include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
-#include "scene/scene_vessel.h"
 #include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::nodes
@@ -47,7 +46,7 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
     renderer_(simulation::commandsAt(scene_, 0.0))
 {
   if (scene_.vessel)
-    contacts_ = std::make_unique<RemoteContactSource>(
+    contacts_ = std::make_shared<RemoteContactSource>(
         node_,
         numericParameter(parameters, "contact_patience", pace == Pace::kRealTime ? kContactTimeout : kContactPatience,
                          quantities::kWait),
@@ -55,60 +54,65 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
   setState(drive::OperatingState::kDisabled, "waiting for the vessel and the contact node");
 }
 
-bool GraphSimulation::waitForVessel()
+/** Vessel of vessel_server; none when ROS shut down before. */
+std::optional<vessel::Vessel> GraphSimulation::waitForVessel()
 {
   ROS_INFO("waiting for the vessel");
+  vessel::Vessel vessel;
   std::uint64_t version = 0;
-  const auto takeMesh = [this, &version](const VesselMesh& mesh)
+  const auto takeMesh = [&vessel, &version](const VesselMesh& mesh)
   {
-    vessel_.mesh = fromMessage(mesh);
-    vessel_.source = mesh.source;
-    vessel_hash_ = mesh.content_hash;
+    vessel.mesh = fromMessage(mesh);
+    vessel.source = mesh.source;
     version = mesh.version;
   };
-  const auto takeCentreline = [this](const VesselCentreline& centreline)
-  { vessel_.centreline = fromMessage(centreline); };
+  const auto takeCentreline = [&vessel](const VesselCentreline& centreline)
+  { vessel.centreline = fromMessage(centreline); };
   if (!waitForLatched<VesselMesh>(node_, names::kVesselMesh, takeMesh) ||
       !waitForLatched<VesselCentreline>(node_, names::kVesselCentreline, takeCentreline))
-    return false;
+    return std::nullopt;
   server_ = std::make_unique<VesselServerMonitor>(node_);
-  entry_ = scene::resolveStart(scene_, vessel_);
-  forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, vessel_, vessel_hash_);
-  if (!simulation::hasBalloon(scene_))
-    return true;
-  wall_ = std::make_unique<RemoteDeformableWall>(node_, newestVersion(version, node_));
-  initial_wall_ = wall_->version();
-  return true;
-}
-
-std::unique_ptr<simulation::Simulation> GraphSimulation::makeSimulation()
-{
-  return std::make_unique<simulation::Simulation>(scene_, entry_, contacts_.get(), &vessel_.centreline, wall_.get());
+  if (simulation::hasBalloon(scene_))
+    wall_ = std::make_shared<RemoteDeformableWall>(node_, newestVersion(version, node_));
+  return vessel;
 }
 
 bool GraphSimulation::connect()
 {
-  if (!scene_.vessel)
-    entry_ = scene::resolveEntry(scene_.entry, scene_.file);
-  else if (!waitForVessel())
+  std::optional<vessel::Vessel> vessel;
+  if (scene_.vessel && !(vessel = waitForVessel()))
     return false;
-  simulation_ = makeSimulation();
+  const std::shared_ptr<const session::World> world = session::World::make(scene_, std::move(vessel));
+  session::SessionSettings settings;
+  settings.contacts = contacts_;
+  settings.wall = wall_;
+  session_.emplace(world, std::move(settings));
   if (scene_.procedure)
-    procedure_ = std::make_unique<ProcedureDriver>(node_, scene_, vessel_.centreline, entry_.position);
+    procedure_.emplace(node_, scene_);
   if (!contacts_)
     return true;
+  forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, *world->vessel(), world->meshHash());
   ROS_INFO("waiting for the contact node");
-  return contacts_->waitForNode(simulation_->initialQuery()) && (!wall_ || wall_->waitForServer());
+  return contacts_->waitForNode(simulation().initialQuery()) && (!wall_ || wall_->waitForServer());
+}
+
+const vessel::CentrelineTree& GraphSimulation::centreline() const
+{
+  static const vessel::CentrelineTree none;
+  const vessel::Vessel* vessel = session_->world().vessel();
+  return vessel != nullptr ? vessel->centreline : none;
 }
 
 void GraphSimulation::step()
 {
   costs_.begin();
-  const bool counted = !procedure_ || !procedure_->isOver();  // metrics end with the procedure, as those of `simulate`
+  const procedure::Operator* scripted = session_->scriptedOperator();
+  // Metrics end with the procedure, as those of `simulate`.
+  const bool counted = scripted == nullptr || scripted->progress() == procedure::Progress::kRunning;
   const std::vector<simulation::HandCommand>& commands = nextCommands();
   {
     const LoopCosts::Scope scope(costs_, LoopPhase::kSimulation);
-    simulation_->stepAll(commands);
+    session_->step(commands);
   }
   publishStep(commands, counted);
 }
@@ -116,21 +120,24 @@ void GraphSimulation::step()
 const std::vector<simulation::HandCommand>& GraphSimulation::nextCommands()
 {
   const LoopCosts::Scope scope(costs_, LoopPhase::kCommands);
-  return drives_.next(*simulation_, procedure_ ? &procedure_->next(*simulation_, now()) : nullptr);
+  const std::vector<simulation::HandCommand>* scripted = session_->scriptedCommands();
+  if (procedure_)
+    procedure_->publishChanges(*session_->scriptedOperator(), simulation().steps(), now());
+  return drives_.next(simulation(), scripted);
 }
 
 void GraphSimulation::publishStep(const std::vector<simulation::HandCommand>& commands, bool counted)
 {
   const LoopCosts::Scope scope(costs_, LoopPhase::kPublishing);
-  const std::vector<RenderedHand>& hands = renderer_.render(*simulation_, commands, scene_.solver.time_step);
+  const std::vector<RenderedHand>& hands = renderer_.render(simulation(), commands, scene_.solver.time_step);
   const ros::Time stamp = now();
-  clock_.publishStep(simulation_->steps());
-  instruments_.publishStep(*simulation_, hands, stamp);
-  publisher_.publishStep(*simulation_, hands, stamp);
+  clock_.publishStep(simulation().steps());
+  instruments_.publishStep(simulation(), hands, stamp);
+  publisher_.publishStep(simulation(), hands, stamp);
   if (!forces_)
     return;
   const LoopCosts::Scope recording(costs_, LoopPhase::kRecording);
-  forces_->publishStep(*simulation_, counted, stamp);
+  forces_->publishStep(simulation(), counted, stamp);
 }
 
 void GraphSimulation::publishHeld(double share)
@@ -141,9 +148,9 @@ void GraphSimulation::publishHeld(double share)
 
 void GraphSimulation::publishBeginning()
 {
-  clock_.publish(simulation_->steps());
+  clock_.publish(simulation().steps());
   if (forces_)
-    forces_->publishMap(*simulation_, now());
+    forces_->publishMap(simulation(), now());
 }
 
 void GraphSimulation::publishEnd(const std::string& reason)
@@ -151,7 +158,7 @@ void GraphSimulation::publishEnd(const std::string& reason)
   setState(drive::OperatingState::kDisabled, reason);
   publishHeld(0.0);
   if (forces_)
-    forces_->publishMap(*simulation_, now());
+    forces_->publishMap(simulation(), now());
 }
 
 void GraphSimulation::setState(drive::OperatingState state, const std::string& reason)
@@ -161,12 +168,15 @@ void GraphSimulation::setState(drive::OperatingState state, const std::string& r
 
 void GraphSimulation::reset()
 {
-  if (wall_ && wall_->version() != initial_wall_)
+  try
+  {
+    session_->reset();
+  }
+  catch (const std::logic_error&)
+  {
     throw InputError(scene_.file, "balloon",
                      "has moved the wall, which vessel_server keeps; restart the session to begin again");
-  simulation_ = makeSimulation();
-  if (procedure_)
-    procedure_->reset();
+  }
   drives_.reset();
   beginRun();
 }
@@ -176,7 +186,9 @@ void GraphSimulation::beginRun()
 {
   publisher_.reset();
   instruments_.reset();
-  renderer_ = HandForceRenderer(drives_.present(*simulation_));
+  renderer_ = HandForceRenderer(drives_.present(simulation()));
+  if (procedure_)
+    procedure_->reset();
   if (forces_)
     forces_->reset();
 }
@@ -193,51 +205,33 @@ void GraphSimulation::requireRigidWall() const
 std::string GraphSimulation::save()
 {
   requireRigidWall();
-  std::ostringstream stream;
-  simulation_->save(stream, vessel_hash_,
-                    [this](Archive& archive)
-                    {
-                      if (procedure_)
-                        procedure_->archive(archive);
-                      drives_.archive(archive);
-                    });
-  return stream.str();
+  return session_->save([this](Archive& archive) { drives_.archive(archive); });
 }
 
 void GraphSimulation::load(const std::string& state, const std::string& origin)
 {
   requireRigidWall();
-  std::istringstream stream(state);
-  std::unique_ptr<simulation::Simulation> loaded = makeSimulation();
-  Archive before;  // of the parts that keep their objects
-  const auto archiveParts = [this](Archive& archive)
+  Archive before;
+  drives_.archive(before);
+  const auto loadDrives = [this](Archive* archive, const simulation::Simulation& loaded)
   {
-    if (procedure_)
-      procedure_->archive(archive);
-    drives_.archive(archive);
+    if (archive == nullptr)  // a state of `simulate`
+      return drives_.restAt(loaded);
+    drives_.archive(*archive);
+    if (!archive->atEnd())
+      throw ArchiveError("has a varied start, which nodes do not have");
   };
-  archiveParts(before);
   try
   {
-    loaded->load(stream, vessel_hash_, origin,
-                 [this, &loaded](Archive& archive)
-                 {
-                   if (procedure_)
-                     procedure_->archive(archive);
-                   if (archive.atEnd())  // a state of `simulate`
-                     drives_.restAt(*loaded);
-                   else
-                     drives_.archive(archive);
-                 });
+    session_->load(state, origin, loadDrives);
   }
   catch (const InputError&)
   {
     Archive kept(before.bytes());
-    archiveParts(kept);
+    drives_.archive(kept);
     throw;
   }
-  simulation_ = std::move(loaded);
-  drives_.playFrom(simulation_->time());
+  drives_.playFrom(simulation().time());
   beginRun();
 }
 

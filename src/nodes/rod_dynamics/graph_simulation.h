@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,19 +15,18 @@
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
 #include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
 #include "nodes/rod_dynamics/instruments/instrument_publisher.h"
-#include "nodes/rod_dynamics/procedure_driver.h"
+#include "nodes/rod_dynamics/procedure_publisher.h"
 #include "nodes/rod_dynamics/remote_contact_source.h"
 #include "nodes/rod_dynamics/remote_deformable_wall.h"
 #include "nodes/rod_dynamics/rod_publisher.h"
 #include "nodes/rod_dynamics/vessel_server_monitor.h"
-#include "simulation/simulation.h"
-#include "vessel/model/vessel.h"
+#include "session/session.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** Simulation of a scene with its connections to the graph: the vessel, the contact node, the commands to its
- *  instruments, and all of its topics. */
+/** Session of a scene with its connections to the graph: the vessel, the contact node, the commands to its instruments,
+ *  and all of its topics. */
 class GraphSimulation
 {
 public:
@@ -34,7 +34,7 @@ public:
    *  @throws InputError for an invalid parameter or file of commands */
   GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene, Pace pace);
 
-  /** Waits for the vessel and the contact node, and makes the simulation. @return false when ROS shut down before */
+  /** Waits for the vessel and the contact node, and opens the session. @return false when ROS shut down before */
   bool connect();
 
   /** Advances by one step with the commands of the drives, and publishes it. */
@@ -72,8 +72,9 @@ public:
   void load(const std::string& state, const std::string& origin);
 
   const scene::Scene& scene() const { return scene_; }
-  const simulation::Simulation& simulation() const { return *simulation_; }
-  const vessel::Vessel& vessel() const { return vessel_; }     ///< initial vessel; empty without one
+  const simulation::Simulation& simulation() const { return session_->simulation(); }
+  /** Initial centreline of the vessel; empty without one. */
+  const vessel::CentrelineTree& centreline() const;
   RemoteContactSource* contacts() { return contacts_.get(); }  ///< null without a vessel
   const RemoteContactSource* contacts() const { return contacts_.get(); }
   DriveCommands& drives() { return drives_; }
@@ -91,11 +92,10 @@ public:
   bool isWithoutVessel() const { return server_ && server_->hasEnded(); }
 
 private:
-  bool waitForVessel();
+  std::optional<vessel::Vessel> waitForVessel();
   const std::vector<simulation::HandCommand>& nextCommands();
   void publishStep(const std::vector<simulation::HandCommand>& commands, bool counted);
-  std::unique_ptr<simulation::Simulation> makeSimulation();
-  ros::Time now() const { return clock_.stamp(simulation_ ? simulation_->steps() : 0); }
+  ros::Time now() const { return clock_.stamp(session_ ? simulation().steps() : 0); }
   void requireRigidWall() const;
   void beginRun();
 
@@ -103,15 +103,11 @@ private:
   scene::Scene scene_;
   LoopCosts costs_;
   SimulationClock clock_;
-  scene::EntryPose entry_;
-  vessel::Vessel vessel_;
-  std::uint64_t vessel_hash_ = 0;                  ///< content hash of the vessel's mesh; 0 without a vessel
-  std::unique_ptr<RemoteContactSource> contacts_;  ///< null without a vessel
+  std::shared_ptr<RemoteContactSource> contacts_;  ///< null without a vessel
   std::unique_ptr<VesselServerMonitor> server_;    ///< null without a vessel
-  std::unique_ptr<RemoteDeformableWall> wall_;     ///< null without a vessel or without a balloon
-  std::uint64_t initial_wall_ = 0;                 ///< version of the wall at the first step
-  std::unique_ptr<simulation::Simulation> simulation_;
-  std::unique_ptr<ProcedureDriver> procedure_;  ///< null without a procedure in the scene
+  std::shared_ptr<RemoteDeformableWall> wall_;     ///< null without a vessel or without a balloon
+  std::optional<session::Session> session_;        ///< none before connect()
+  std::optional<ProcedurePublisher> procedure_;    ///< none without a procedure in the scene
   RodPublisher publisher_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DriveCommands drives_;

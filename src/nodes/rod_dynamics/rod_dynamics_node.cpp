@@ -22,6 +22,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
+constexpr double kBetweenCalls = 10e-3;     ///< time between two calls of simulation/step in which forces stay [s]
 constexpr double kPauseAfter = 15e-3;       ///< silence of the contact node that causes a pause in real time [s]
 constexpr double kRecorderTimeout = 10.0;   ///< longest wait for a recorder [s]
 constexpr double kRest = 1e-3;              ///< duration of one sleep that avoids real-time throttling [s]
@@ -75,13 +76,16 @@ RodDynamicsNode::RodDynamicsNode(const ros::NodeHandle& node, const ros::NodeHan
     parameters_(parameters),
     request_(std::move(request)),
     pace_(paceFrom(parameters_)),
-    pause_after_(numericParameter(parameters_, "pause_after", kPauseAfter, quantities::kWait)),
     seconds_(numericParameter(parameters_, "seconds", 0.0, quantities::kDuration)),
     simulation_(node_, parameters_, std::move(scene), pace_),
     throttle_guard_(requiredIdleShare(), kRest),
     statistics_(simulation_.scene().solver.time_step),
     recorder_(node_),
-    run_publisher_(node_.advertise<SimulationRun>(names::kSimulationRun, 1, true))
+    run_publisher_(node_.advertise<SimulationRun>(names::kSimulationRun, 1, true)),
+    hold_(simulation_, statistics_),
+    obstacles_(simulation_, recorder_, pace_,
+               numericParameter(parameters_, "pause_after", kPauseAfter, quantities::kWait),
+               [this] { return isOver(); })
 {
   last_step_ = seconds_ > 0.0
                    ? static_cast<std::uint64_t>(std::llround(seconds_ / simulation_.scene().solver.time_step))
@@ -114,7 +118,7 @@ bool RodDynamicsNode::run()
                          status);
           IgnoredMessages::ofProcess().diagnose(status);
         });
-    observer_ = std::make_unique<StepObserver>(simulation_.scene(), simulation_.vessel().centreline);
+    observer_ = std::make_unique<StepObserver>(simulation_.scene(), simulation_.centreline());
     simulation_.setState(drive::OperatingState::kEnabled, "");
     announceRun("", 0);
     waitForRecorder();
@@ -159,17 +163,17 @@ void RodDynamicsNode::runSteps()
     countProgress();
     services_->serve(0.0);
     const Clock::time_point awake = Clock::now();
-    if (pace_ == Pace::kRealTime && !is_held_)
+    if (pace_ == Pace::kRealTime && !hold_.isActive())
       sleepUntil(scheduler.next());
-    const std::string reason = obstacle();
+    const std::string reason = obstacles_.find(hold_.isActive());
     if (!reason.empty() || pace_ == Pace::kStepped)
     {
       hold(reason);
       continue;
     }
-    if (is_held_)
+    if (hold_.isActive())
     {
-      release();
+      hold_.release();
       scheduler.start(Clock::now());
     }
     step(scheduler, awake);
@@ -197,6 +201,16 @@ void RodDynamicsNode::step(StepScheduler& scheduler, Clock::time_point awake)
     sleepUntil(end + StepScheduler::period(rest));
   if (scheduler.end(Clock::now()))
     statistics_.addDiscardedBacklog();
+}
+
+/** Takes no step for a short time, in which calls of the services are executed.
+ *  @param reason empty while the simulation waits for a call of simulation/step */
+void RodDynamicsNode::hold(const std::string& reason)
+{
+  hold_.begin(reason.empty() ? kBetweenCalls : 0.0);
+  hold_.announce(reason, StepObstacles::isContactLost(reason));
+  hold_.publish();
+  services_->serve(hold_.untilNext());
 }
 
 bool RodDynamicsNode::isOver()

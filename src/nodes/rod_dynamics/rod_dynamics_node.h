@@ -15,6 +15,8 @@
 #include "nodes/rod_dynamics/control/step_observer.h"
 #include "nodes/rod_dynamics/control/step_scheduler.h"
 #include "nodes/rod_dynamics/graph_simulation.h"
+#include "nodes/rod_dynamics/step_hold.h"
+#include "nodes/rod_dynamics/step_obstacles.h"
 #include "nodes/rod_dynamics/step_statistics.h"
 #include "nodes/runtime/real_time.h"
 
@@ -53,16 +55,7 @@ private:
   bool isOver();
   bool isAtEnd() const { return simulation_.simulation().steps() >= last_step_; }
 
-  // Times without a step.
-  std::string obstacle();
-  bool isContactLost() const;
-  bool isContactMissing();
-  bool isRecorderBehind();
   void hold(const std::string& reason);
-  void beginHold(double patience);
-  void announceHold(const std::string& reason);
-  void release();
-  void publishHeld();
 
   // Services.
   std::string pauseByClient();
@@ -81,7 +74,6 @@ private:
   std::function<SchedulingGrant()> request_;
   SchedulingGrant grant_;
   Pace pace_;
-  double pause_after_;           ///< silence of the contact node that causes a pause in real time [s]
   double seconds_;               ///< simulated time until the end; 0: no end [s]
   std::uint64_t last_step_ = 0;  ///< number of steps until the end
   GraphSimulation simulation_;
@@ -89,14 +81,9 @@ private:
   StepStatistics statistics_;
   RecorderProgress recorder_;
   ros::Publisher run_publisher_;
-  std::uint32_t run_ = 0;         ///< number of the run
-  bool is_paused_ = false;        ///< by a client
-  bool is_held_ = false;          ///< true while no step is taken
-  bool is_faded_ = false;         ///< true when forces have been faded since the last step
-  std::string held_reason_;       ///< announced reason of the hold; empty while waiting for calls
-  bool is_listening_ = false;     ///< for a response of the contact node
-  Clock::time_point held_since_;  ///< begin of the forces' ramp to zero
-  Clock::time_point next_held_;   ///< time of the next publication while held
+  std::uint32_t run_ = 0;  ///< number of the run
+  StepHold hold_;
+  StepObstacles obstacles_;
   std::unique_ptr<StepObserver> observer_;
   std::unique_ptr<SimulationServices> services_;  ///< last, so that it ends before the members that it uses
 };

@@ -32,13 +32,13 @@ SimulationServices::Operations RodDynamicsNode::operations()
 
 std::string RodDynamicsNode::pauseByClient()
 {
-  is_paused_ = true;
+  obstacles_.setPaused(true);
   return "paused at step " + std::to_string(simulation_.simulation().steps());
 }
 
 std::string RodDynamicsNode::resumeByClient()
 {
-  is_paused_ = false;
+  obstacles_.setPaused(false);
   return "continues at step " + std::to_string(simulation_.simulation().steps());
 }
 
@@ -73,13 +73,13 @@ void RodDynamicsNode::announceRun(const std::string& state, std::uint64_t previo
 std::string RodDynamicsNode::beginRun(const std::string& state, std::uint64_t previous_steps)
 {
   announceRun(state, previous_steps);
-  beginHold(0.0);
+  hold_.begin(0.0);
   const Clock::time_point end = Clock::now() + StepScheduler::period(kNextRecording);
   while (!recorder_.hasBegun(run_) && !isOver())
   {
     if (Clock::now() > end)
       throw InputError("session", "", "has not begun the next recording within 60 s: steps may be missing in it");
-    publishHeld();
+    hold_.publish();
     countProgress();
     sleepUntil(Clock::now() + StepScheduler::period(1e-3));
   }
@@ -108,7 +108,7 @@ std::string RodDynamicsNode::refusalOf(const StepSimulation::Request& request) c
   if (pace_ != Pace::kStepped)
     return std::string("the pace is ") + nameOf(pace_) +
            "; clients take the steps only with the pace stepped: start with pace:=stepped";
-  if (is_paused_)
+  if (obstacles_.isPaused())
     return "the simulation is paused; call simulation/resume first";
   if (request.steps > kMostSteps)
     return "steps is " + std::to_string(request.steps) + "; must be at most " + std::to_string(kMostSteps);
@@ -137,20 +137,20 @@ std::string RodDynamicsNode::takeSteps(std::uint32_t steps)
 std::string RodDynamicsNode::waitForClearance()
 {
   const Clock::time_point end = Clock::now() + StepScheduler::period(kClearance);
-  std::string reason = obstacle();
+  std::string reason = obstacles_.find(hold_.isActive());
   while (!reason.empty() && Clock::now() < end && !isOver())
   {
-    beginHold(0.0);
-    announceHold(reason);
-    publishHeld();
+    hold_.begin(0.0);
+    hold_.announce(reason, StepObstacles::isContactLost(reason));
+    hold_.publish();
     countProgress();
     sleepUntil(Clock::now() + StepScheduler::period(1e-3));
-    reason = obstacle();
+    reason = obstacles_.find(hold_.isActive());
   }
   if (isOver())
     return "the simulation ends";
-  if (reason.empty() && is_held_)
-    release();
+  if (reason.empty() && hold_.isActive())
+    hold_.release();
   return reason;
 }
 

@@ -1,15 +1,17 @@
 #include "nodes/session/recorded_simulation.h"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
+#include <stdexcept>
+#include <utility>
 
-#include "common/archive.h"
 #include "common/error.h"
+#include "contact/detector.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
+#include "simulation/local_deformable_wall.h"
+#include "simulation/replay_source.h"
 
 namespace endovascular_sim::nodes
 {
@@ -38,66 +40,72 @@ vessel::Vessel recordedVessel(const SessionBag& recording, const std::string& fi
   }
 }
 
-bool areFinite(const std::vector<double>& values)
+std::shared_ptr<const session::World> recordedWorld(const SessionBag& recording, const std::string& file)
 {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  scene::Scene scene = scene::parseRecordedScene(recording.info.scene_yaml, file);
+  std::optional<vessel::Vessel> vessel;
+  if (scene.vessel)
+    vessel = recordedVessel(recording, file);
+  return session::World::make(std::move(scene), std::move(vessel));
 }
 
 }  // namespace
 
-RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::string& file)
-  : file_(file), scene_(scene::parseRecordedScene(recording.info.scene_yaml, file))
+/** Detector of a recording, and the wall that balloons deform. */
+struct RecordedSimulation::Contacts
 {
-  if (scene_.vessel)
-    vessel_ = recordedVessel(recording, file);
-  entry_ = scene_.vessel ? scene::resolveEntry(scene_.entry, vessel_, file) : scene::resolveEntry(scene_.entry, file);
-  if (scene_.vessel)
+  explicit Contacts(const session::World& world)
+    : detector(world.wall(), scene::wallLaw(*world.scene().vessel)),
+      wall(simulation::makeLocalDeformableWall(world.scene(), *world.vessel(), detector))
   {
-    detector_ = std::make_unique<contact::Detector>(vessel_.mesh, scene::wallLaw(*scene_.vessel));
-    wall_ = simulation::makeLocalDeformableWall(scene_, vessel_, *detector_);
-    contacts_ = std::make_unique<simulation::ReplayContactSource>(*detector_);
   }
-  simulation_.emplace(scene_, entry_, contacts_.get(), &vessel_.centreline, wall_.get());
+
+  contact::Detector detector;
+  simulation::ReplayContactSource source{detector};
+  std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null without a balloon
+};
+
+RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::string& file, bool results) : file_(file)
+{
+  const std::shared_ptr<const session::World> world = recordedWorld(recording, file);
+  session::SessionSettings settings;
+  settings.results = results;
+  if (world->vessel() != nullptr)
+  {
+    contacts_ = std::make_shared<Contacts>(*world);
+    settings.contacts = {contacts_, &contacts_->source};
+    settings.wall = {contacts_, contacts_->wall.get()};
+  }
+  session_.emplace(world, settings);
   if (!recording.state.empty())
-    loadState(recording);
-}
-
-/** @throws InputError when the state is damaged, or of another version */
-void RecordedSimulation::loadState(const SessionBag& recording)
-{
-  std::istringstream stream(recording.state);
-  // The commands are those of the recording: the states of operator and drives are not needed.
-  simulation_->load(stream, recording.mesh ? recording.mesh->content_hash : 0, file_ + ": " + names::kSimulationRun,
-                    [](Archive& archive) { archive.skipRest(); });
-}
-
-void RecordedSimulation::setCommands(const DriveApplied& applied)
-{
-  const std::size_t size = scene_.instruments.size();
-  const bool is_complete =
-      applied.insertion.size() == size && applied.rotation.size() == size && applied.pressure.size() == size;
-  if (!is_complete || !areFinite(applied.insertion) || !areFinite(applied.rotation) || !areFinite(applied.pressure))
-    throw InputError(file_, names::kDriveApplied,
-                     "step " + std::to_string(applied.step) + " does not hold a finite command for each of the " +
-                         std::to_string(size) + " instruments: the bag is damaged; use a copy that is intact");
-  commands_.clear();
-  for (std::size_t k = 0; k < size; ++k)
-  {
-    if (applied.pressure[k] != 0.0 && !scene_.instruments[k].instrument.balloon)
-      throw InputError(file_, names::kDriveApplied,
-                       "step " + std::to_string(applied.step) +
-                           " holds a pressure for an instrument without a balloon: "
-                           "the bag is damaged; use a copy that is intact");
-    commands_.push_back({applied.insertion[k], applied.rotation[k], applied.pressure[k]});
-  }
+    session_->load(recording.state, file_ + ": " + names::kSimulationRun);
 }
 
 void RecordedSimulation::step(const DriveApplied& applied)
 {
-  setCommands(applied);
+  const std::size_t size = applied.insertion.size();
+  commands_.clear();
+  for (std::size_t k = 0; k < size && applied.rotation.size() == size && applied.pressure.size() == size; ++k)
+    commands_.push_back({applied.insertion[k], applied.rotation[k], applied.pressure[k]});
   if (contacts_)
-    contacts_->setFirstStalePass(applied.first_stale_pass);
-  simulation_->stepAll(commands_);
+    contacts_->source.setFirstStalePass(applied.first_stale_pass);
+  try
+  {
+    session_->step(commands_);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw InputError(file_, names::kDriveApplied,
+                     "step " + std::to_string(applied.step) + " does not fit the scene (" + error.what() +
+                         "): the bag is damaged; use a copy that is intact");
+  }
+}
+
+void RecordedSimulation::stepByScene(const DriveApplied& applied)
+{
+  if (contacts_)
+    contacts_->source.setFirstStalePass(applied.first_stale_pass);
+  session_->step();
 }
 
 ReplayOutcome replay(const SessionBag& recording, RecordedSimulation& session, bool keep_going,

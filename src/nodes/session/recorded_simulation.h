@@ -7,47 +7,39 @@
 #include <string>
 #include <vector>
 
-#include "contact/detector.h"
 #include "nodes/session/session_bag.h"
-#include "scene/model/scene.h"
-#include "simulation/local_deformable_wall.h"
-#include "simulation/replay_source.h"
-#include "simulation/simulation.h"
-#include "vessel/model/vessel.h"
+#include "session/session.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** Simulation of a recorded session, with the scene and the vessel of the recording. */
+/** Session of a recording: with its scene and its vessel, and with stale contact sets where they came too late in it.
+ */
 class RecordedSimulation
 {
 public:
   /** @param file path of the bag, for errors
+   *  @param results true: gathers the results, as SessionSettings::results
    *  @throws InputError when scene or vessel of the recording are damaged or missing */
-  RecordedSimulation(const SessionBag& recording, const std::string& file);
+  RecordedSimulation(const SessionBag& recording, const std::string& file, bool results = false);
 
-  const scene::Scene& scene() const { return scene_; }
-  const vessel::Vessel& vessel() const { return vessel_; }  ///< initial vessel; empty without one
-  const scene::EntryPose& entry() const { return entry_; }
-  const simulation::LocalDeformableWall* wall() const { return wall_.get(); }  ///< null without a balloon
-  const simulation::Simulation& simulation() const { return *simulation_; }
+  const session::Session& session() const { return *session_; }
+  session::Session& session() { return *session_; }
+  const simulation::Simulation& simulation() const { return session().simulation(); }
 
   /** Simulates the next step with its recorded input.
    *  @throws InputError when the input does not match the instruments of the scene */
   void step(const DriveApplied& applied);
 
+  /** Simulates the next step by the operator and the drives of the scene, with the recorded contact sets. */
+  void stepByScene(const DriveApplied& applied);
+
 private:
-  void setCommands(const DriveApplied& applied);
-  void loadState(const SessionBag& recording);
+  struct Contacts;
 
   std::string file_;
-  scene::Scene scene_;
-  vessel::Vessel vessel_;
-  scene::EntryPose entry_;
-  std::unique_ptr<contact::Detector> detector_;                ///< null without a vessel
-  std::unique_ptr<simulation::ReplayContactSource> contacts_;  ///< null without a vessel
-  std::unique_ptr<simulation::LocalDeformableWall> wall_;      ///< null without a balloon
-  std::optional<simulation::Simulation> simulation_;
+  std::shared_ptr<Contacts> contacts_;  ///< null without a vessel
+  std::optional<session::Session> session_;
   std::vector<simulation::HandCommand> commands_;
 };
 

@@ -16,8 +16,9 @@ constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [H
 
 }  // namespace
 
-Recording::Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps)
+Recording::Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps_)
   : folder(std::move(folder_)),
+    steps(steps_),
     results(scene, folder, steps),
     bag(path("session.bag")),
     pose(scene.record.pose_rate),

@@ -15,13 +15,17 @@ namespace endovascular_sim::nodes
 struct Recording
 {
   /** @param folder_ existing folder
-   *  @param steps number of steps of the session; later ones are ignored
+   *  @param steps_ number of steps of the session; later ones are ignored
    *  @throws InputError when a file cannot be created */
-  Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps);
+  Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps_);
 
   std::string path(const std::string& name) const { return folder + "/" + name; }
 
+  /** Reports whether all steps of the session are recorded. */
+  bool isComplete() const { return results.report().lastStep() >= steps; }
+
   std::string folder;
+  std::uint64_t steps;  ///< number of steps of the session
   SessionResults results;
   BagWriter bag;
   Throttle pose, joints, contacts;

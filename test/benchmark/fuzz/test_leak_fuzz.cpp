@@ -1,5 +1,7 @@
 #include "benchmark/fuzz/leak_fuzz.h"
 
+#include <regex>
+
 #include <gtest/gtest.h>
 
 #include "benchmark/fuzz/fuzz_record.h"
@@ -67,6 +69,22 @@ TEST(FuzzRecord, ResumesFromItsJson)
   resumed.add(episode);
   EXPECT_FALSE(resumed.good());
   EXPECT_NE(resumed.csv().find("yes"), std::string::npos);
+}
+
+TEST(FuzzRecord, ResumesFromAFileWithTheKeysOfFormerVersions)
+{
+  FuzzRecord record(settings(), {"channel"});
+  FuzzEpisode episode;
+  episode.vessel = "channel";
+  episode.checks = 12;
+  episode.hit_iteration_limit = 3;
+  record.add(episode);
+  std::string former = std::regex_replace(record.json(), std::regex("\"checks\""), "\"looks\"");
+  former = std::regex_replace(former, std::regex("\"hit_iteration_limit\""), "\"capped\"");
+  EXPECT_NE(former, record.json());
+  FuzzRecord resumed(settings(), {"channel"});
+  resumed.resume(former, "state");
+  EXPECT_EQ(resumed.json(), record.json());
 }
 
 TEST(FuzzRecord, RejectsResumptionWithOtherSettingsOrFromDamagedText)

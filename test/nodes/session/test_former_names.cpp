@@ -12,6 +12,8 @@
 #include "common/error.h"
 #include "common/version.h"
 #include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/ContactForces.h"
+#include "endovascular_sim/RodStateVisual.h"
 #include "nodes/conversions/contact_force_conversions.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/session/bag_records.h"
@@ -73,6 +75,7 @@ TEST(BagOfAFormerVersion, IsReplayedBitForBitAsLongAsThePhysicsIsItsOwn)
     EXPECT_EQ(outcome.compared, 200U);
     EXPECT_EQ(outcome.different, 0U);
     EXPECT_EQ(outcome.incomplete, "");
+    EXPECT_NE(session.session().wall().vertices, session.session().world().vessel()->mesh.vertices);
   }
   catch (const InputError& error)
   {
@@ -89,7 +92,7 @@ TEST(BagOfAFormerVersion, IsShownByTheTopicsOfTheLaunchFile)
   readBagMessages(kBag,
                   [&](const BagMessage& message)
                   {
-                    if (!std::regex_search(played, std::regex(message.topic + "[ \n]")))
+                    if (!std::regex_search(played, std::regex(message.topic + "[ \n\"]")))
                       return;
                     ++shown[message.topic];
                     for (const auto& [topic, md5] :
@@ -100,8 +103,12 @@ TEST(BagOfAFormerVersion, IsShownByTheTopicsOfTheLaunchFile)
                           std::pair("/treatment/state_visual", ros::message_traits::MD5Sum<TreatmentVisual>::value()),
                           std::pair("/contact/forces", ros::message_traits::MD5Sum<ContactForces>::value()),
                           std::pair("/contact/force_map", ros::message_traits::MD5Sum<ContactForceMap>::value())})
+                    {
                       if (message.topic == topic)
+                      {
                         EXPECT_EQ(message.md5sum, md5) << topic;
+                      }
+                    }
                   });
   EXPECT_GE(shown.size(), 9U);  // the seven above, and those of tf
   EXPECT_GT(shown["/treatment/state_visual"], 5);

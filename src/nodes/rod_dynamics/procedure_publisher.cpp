@@ -1,4 +1,4 @@
-#include "nodes/rod_dynamics/procedure_driver.h"
+#include "nodes/rod_dynamics/procedure_publisher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,8 @@
 namespace endovascular_sim::nodes
 {
 
-ProcedureDriver::ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scene, const vessel::CentrelineTree& tree,
-                                 const Eigen::Vector3d& entry)
+ProcedurePublisher::ProcedurePublisher(ros::NodeHandle& node, const scene::Scene& scene)
   : last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step))),
-    beginning_(scene, tree, entry),
-    operator_(beginning_),
     publisher_(node.advertise<ProcedureStep>(names::kProcedureStep, 100, true))
 {
   const std::vector<scene::StepScene>& steps = scene.procedure->steps;
@@ -20,25 +17,8 @@ ProcedureDriver::ProcedureDriver(ros::NodeHandle& node, const scene::Scene& scen
     c_arm_ = node.advertise<CArm>(names::kCArmCommand, 1, true);
 }
 
-const std::vector<simulation::HandCommand>& ProcedureDriver::next(const simulation::Simulation& simulation,
-                                                                  ros::Time now)
+void ProcedurePublisher::reset()
 {
-  const std::vector<simulation::HandCommand>& commands = operator_.next(simulation);
-  publishProgress(simulation, now);
-  return commands;
-}
-
-void ProcedureDriver::reset()
-{
-  operator_ = beginning_;
-  published_ = ProcedureStep();
-  is_complete_ = false;
-  view_.clear();
-}
-
-void ProcedureDriver::archive(Archive& archive)
-{
-  operator_.archive(archive);
   published_ = ProcedureStep();
   is_complete_ = false;
   view_.clear();
@@ -46,9 +26,9 @@ void ProcedureDriver::archive(Archive& archive)
 
 /** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last
  * step the newest record is published in any case, with the time of its last observation. */
-void ProcedureDriver::publishProgress(const simulation::Simulation& simulation, ros::Time now)
+void ProcedurePublisher::publishChanges(const procedure::Operator& scripted, std::uint64_t steps, ros::Time now)
 {
-  const std::vector<procedure::StepRecord>& records = operator_.records();
+  const std::vector<procedure::StepRecord>& records = scripted.records();
   const std::size_t newest = published_.begun == 0 ? 0 : published_.begun - 1;
   for (std::size_t k = newest; k < records.size(); ++k)
   {
@@ -56,20 +36,20 @@ void ProcedureDriver::publishProgress(const simulation::Simulation& simulation, 
     const bool is_changed = static_cast<std::uint8_t>(records[k].outcome) != published_.outcome ||
                             static_cast<std::uint32_t>(records[k].retries) != published_.retries ||
                             static_cast<std::uint32_t>(records[k].wrong_branches) != published_.wrong_branches;
-    if (is_new || is_changed || simulation.steps() + 1 == last_step_)
-      publish(k, simulation, now);
+    if (is_new || is_changed || steps + 1 == last_step_)
+      publish(scripted, k, steps, now);
     if (is_new)
       ROS_INFO("procedure step %zu: %s", k + 1, records[k].name.c_str());
   }
-  publishView(now);
+  publishView(scripted, now);
 }
 
 /** Commands the view of the present step if it is another one than before. */
-void ProcedureDriver::publishView(ros::Time now)
+void ProcedurePublisher::publishView(const procedure::Operator& scripted, ros::Time now)
 {
-  if (!c_arm_ || operator_.records().empty() || operator_.records().back().view == view_)
+  if (!c_arm_ || scripted.records().empty() || scripted.records().back().view == view_)
     return;
-  view_ = operator_.records().back().view;
+  view_ = scripted.records().back().view;
   if (view_.empty())
     return;
   CArm command;
@@ -78,12 +58,13 @@ void ProcedureDriver::publishView(ros::Time now)
   c_arm_.publish(command);
 }
 
-void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& simulation, ros::Time now)
+void ProcedurePublisher::publish(const procedure::Operator& scripted, std::size_t record, std::uint64_t steps,
+                                 ros::Time now)
 {
   const bool was_over = !published_.failure.empty() || is_complete_;
-  const procedure::StepRecord& step = operator_.records()[record];
+  const procedure::StepRecord& step = scripted.records()[record];
   published_.header.stamp = now;
-  published_.step = simulation.steps();
+  published_.step = steps;
   published_.time = step.end;
   published_.begun = static_cast<std::uint32_t>(record + 1);
   published_.phase = step.phase;
@@ -92,11 +73,11 @@ void ProcedureDriver::publish(std::size_t record, const simulation::Simulation& 
   published_.retries = static_cast<std::uint32_t>(step.retries);
   published_.wrong_branches = static_cast<std::uint32_t>(step.wrong_branches);
   published_.outcome = static_cast<std::uint8_t>(step.outcome);
-  published_.failure = operator_.failure();
+  published_.failure = scripted.failure();
   published_.hint = step.hint;
   published_.step_of_procedure = static_cast<std::uint32_t>(step.step + 1);
-  published_.steps_of_procedure = static_cast<std::uint32_t>(operator_.steps());
-  is_complete_ = operator_.progress() == procedure::Progress::kDone;
+  published_.steps_of_procedure = static_cast<std::uint32_t>(scripted.steps());
+  is_complete_ = scripted.progress() == procedure::Progress::kDone;
   publisher_.publish(published_);
   if (was_over)
     return;

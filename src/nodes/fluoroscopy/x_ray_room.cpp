@@ -1,0 +1,116 @@
+#include "nodes/fluoroscopy/x_ray_room.h"
+
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "common/error.h"
+#include "simulation/x_ray_patient.h"
+
+namespace endovascular_sim::nodes
+{
+
+XRayRoom::XRayRoom(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& library)
+  : scene_(scene),
+    system_(scene_, library),
+    fluoroscope_(system_.fluoroscope()),
+    gantry_(scene_.fluoroscopy->gantry, fluoroscope_.geometry().pose()),
+    needs_patient_(scene_.fluoroscopy->patient.has_value()),
+    isocentre_known_(scene_.fluoroscopy->isocentre.has_value())
+{
+}
+
+void XRayRoom::setVessel(geometry::TriangleMesh mesh)
+{
+  if (!isocentre_known_ && !mesh.vertices.empty())
+  {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      box.extend(vertex);
+    placePatient(box.center());
+  }
+  if (needs_patient_)
+    vessel_.mesh = mesh;
+  fluoroscope_.setVessel(std::move(mesh));
+  has_mesh_ = true;
+}
+
+void XRayRoom::setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes)
+{
+  wires_ = std::move(wires);
+  if (nodes.empty())
+    return;
+  tip_ = nodes.back();
+  if (!scene_.vessel && !isocentre_known_)
+    placePatient(nodes[nodes.size() / 2]);
+}
+
+bool XRayRoom::canLoadPatient() const
+{
+  return needs_patient_ &&
+         (!scene_.vessel || (!vessel_.mesh.triangles.empty() && !vessel_.centreline.branches.empty()));
+}
+
+std::vector<std::string> XRayRoom::loadPatient()
+{
+  const vessel::Vessel vessel = std::exchange(vessel_, {});
+  simulation::XRayPatient loaded =
+      simulation::loadPatient(scene_, vessel, simulation::sequenceResolution(scene_.fluoroscopy->rate));
+  fluoroscope_.setPatient(std::move(loaded.patient));
+  needs_patient_ = false;
+  return loaded.notes;
+}
+
+void XRayRoom::moveTo(const fluoroscopy::CArmPose& target, bool names_isocentre)
+{
+  const bool places_patient = !isocentre_known_ && names_isocentre;
+  fluoroscopy::Gantry commanded = gantry_;
+  if (places_patient && target.isocentre.allFinite())
+    commanded.placePatient(target.isocentre);
+  commanded.moveTo(target);
+  gantry_ = commanded;
+  isocentre_known_ = isocentre_known_ || places_patient;
+}
+
+void XRayRoom::placePatient(const Eigen::Vector3d& isocentre)
+{
+  gantry_.placePatient(isocentre);
+  applyPose();
+  isocentre_known_ = true;
+}
+
+void XRayRoom::advance(double duration)
+{
+  if (scene_.fluoroscopy->follow_tip && tip_ && isocentre_known_)
+  {
+    const fluoroscopy::CArmPose& pose = gantry_.pose();
+    const fluoroscopy::CArmPose panned = fluoroscopy::panToTip(pose, *tip_);
+    if (panned != pose)
+      gantry_.panTo(panned.isocentre);
+  }
+  if (gantry_.advance(duration))
+    applyPose();
+}
+
+/** Gives the pose of the gantry to the fluoroscope. The gantry stops in front of a collision. */
+void XRayRoom::applyPose()
+{
+  try
+  {
+    fluoroscope_.setPose(gantry_.pose());
+  }
+  catch (const InputError&)
+  {
+    gantry_.stopAt(fluoroscope_.geometry().pose());
+    throw;
+  }
+}
+
+const fluoroscopy::Frame& XRayRoom::render(bool display)
+{
+  shown_ = wires_;
+  shown_.insert(shown_.end(), treatment_.begin(), treatment_.end());
+  return fluoroscope_.render(shown_, display);
+}
+
+}  // namespace endovascular_sim::nodes
