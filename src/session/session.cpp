@@ -90,6 +90,7 @@ struct Session::Run
   Observation observation;
   std::optional<RunRecord> record;
   std::vector<simulation::HandCommand> commands;
+  std::vector<simulation::HandCommand> executed;  ///< in the last step, after all faults
   double seconds = 0.0;  ///< computing time of the last step [s]
 };
 
@@ -210,7 +211,8 @@ void Session::advance(const std::vector<simulation::HandCommand>& commands)
 {
   Run& run = this->run();
   const Clock::time_point before = Clock::now();
-  run.simulation.stepAll(run.hardware.execute(run.simulation, commands));
+  run.executed = run.hardware.execute(run.simulation, commands);
+  run.simulation.stepAll(run.executed);
   run.hardware.measure(run.simulation);
   run.seconds = std::chrono::duration<double>(Clock::now() - before).count();
   if (!run.record)
@@ -317,6 +319,11 @@ std::uint64_t Session::noiseSeed() const
 void Session::setNoiseSeed(std::uint64_t seed)
 {
   run().hardware.setSeed(seed);
+}
+
+const std::vector<simulation::HandCommand>& Session::executedCommands() const
+{
+  return run().executed;
 }
 
 const Observation& Session::observe() const

@@ -117,8 +117,10 @@ public:
   /** Stops of an instrument in that scale, see Simulation::stops(). */
   drive::Interval stops(int instrument) const;
 
-  // ------------------------------------------------------------------------------------------- faults and random
-  // errors
+  // -------------------------------------------------------------------------------------- faults and random errors
+
+  /** Commands that the handles followed in the last step, after all faults; none before the first one. */
+  const std::vector<simulation::HandCommand>& executedCommands() const;
 
   /** Faults of the robot: those of the scene, and added ones. They are part of a saved state; reset() leaves those of
    *  the scene. */
@@ -185,7 +187,7 @@ public:
 
   /** Takes over the state of a scene with other parameters, e.g. friction, stiffness or limits, but the same
    *  instruments, nodes and vessel (World::with()). The commands of the drives go on at the time of the state. A
-   * refused state has no effect.
+   *  refused state has no effect.
    *  @return what was dropped, as texts
    *  @throws InputError as load(), and for a state of other instruments or nodes */
   std::vector<std::string> adopt(const std::string& state, const std::string& origin = "state");

@@ -13,7 +13,7 @@ import xmlrpc.client
 folder, repository = sys.argv[1:]
 OTHERS = {"rosout", "rosout_agg", "tf", "tf_static", "diagnostics", "clock"}  # of ROS; /diagnostics is in the table too
 ONLY_IN_RECORDINGS = {"session/end"}
-FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy|robot)"
+FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy|robot|sensors)"
 
 
 def text(name):
@@ -22,7 +22,8 @@ def text(name):
 
 def general(name):
     """A name without the graph's own names of instruments and channels."""
-    return re.sub(r"^(instruments|haptic)/[^/]+/", lambda match: match.group(1) + "/*/", name.lstrip("/"))
+    name = re.sub(r"^sensors/[^/]+$", "sensors/*", name.lstrip("/"))
+    return re.sub(r"^(instruments|haptic)/[^/]+/", lambda match: match.group(1) + "/*/", name)
 
 
 def documented():
@@ -52,9 +53,10 @@ def in_code():
     values = dict(re.findall(r"constexpr auto (k\w+) =\s*\"([^\"]+)\"", text("src/nodes/runtime/ros_names.h")))
     crtk = {value for key, value in values.items() if value.startswith("/") and key not in ("kDiagnostics", "kClock", "kClickedPoint")}
     assert {"/measured_js", "/servo_jp", "/operating_state"} < crtk, crtk
+    crtk.remove(values["kFault"])  # of instruments only
     of_devices = {"/measured_js", "/operating_state", "/state_reason"}
     topics = {value for value in values.values() if re.fullmatch(FIRST_WORDS + "(?:/[a-z_]+)+", value)}
-    topics.add(values["kClickedPoint"][1:])
+    topics |= {values["kClickedPoint"][1:], values["kSensors"] + "*", "instruments/*" + values["kFault"]}
     return topics | {prefix + name for prefix in ("instruments/*", "robot") for name in crtk} | {"haptic/*" + name for name in of_devices}
 
 

@@ -42,6 +42,7 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
     clock_(node_, parameters, pace, scene_.solver.time_step),
     publisher_(node_, scene_, pace),
     drives_(node_, scene_, parameters.param<std::string>("commands", "")),
+    hardware_(node_, scene_),
     instruments_(node_, scene_, drives_),
     renderer_(simulation::commandsAt(scene_, 0.0))
 {
@@ -114,7 +115,7 @@ void GraphSimulation::step()
     const LoopCosts::Scope scope(costs_, LoopPhase::kSimulation);
     session_->step(commands);
   }
-  publishStep(commands, counted);
+  publishStep(session_->executedCommands(), counted);
 }
 
 const std::vector<simulation::HandCommand>& GraphSimulation::nextCommands()
@@ -123,7 +124,8 @@ const std::vector<simulation::HandCommand>& GraphSimulation::nextCommands()
   const std::vector<simulation::HandCommand>* scripted = session_->scriptedCommands();
   if (procedure_)
     procedure_->publishChanges(*session_->scriptedOperator(), simulation().steps(), now());
-  return drives_.next(simulation(), scripted);
+  hardware_.applyChanges(*session_);
+  return drives_.next(simulation(), scripted, session_->faults());
 }
 
 void GraphSimulation::publishStep(const std::vector<simulation::HandCommand>& commands, bool counted)
@@ -134,6 +136,7 @@ void GraphSimulation::publishStep(const std::vector<simulation::HandCommand>& co
   clock_.publishStep(simulation().steps());
   instruments_.publishStep(simulation(), hands, stamp);
   publisher_.publishStep(simulation(), hands, stamp);
+  hardware_.publishStep(*session_, stamp);
   if (!forces_)
     return;
   const LoopCosts::Scope recording(costs_, LoopPhase::kRecording);
@@ -208,18 +211,17 @@ std::string GraphSimulation::save()
   return session_->save([this](Archive& archive) { drives_.archive(archive); });
 }
 
-void GraphSimulation::load(const std::string& state, const std::string& origin)
+/** Loads session and drives. @throws InputError without an effect */
+void GraphSimulation::loadSession(const std::string& state, const std::string& origin)
 {
-  requireRigidWall();
   Archive before;
   drives_.archive(before);
   const auto loadDrives = [this](Archive* archive, const simulation::Simulation& loaded)
   {
     if (archive == nullptr)  // a state of `simulate`
-      return drives_.restAt(loaded);
-    drives_.archive(*archive);
-    if (!archive->atEnd())
-      throw ArchiveError("has a varied start, which nodes do not have");
+      drives_.restAt(loaded);
+    else
+      drives_.archive(*archive);
   };
   try
   {
@@ -230,6 +232,18 @@ void GraphSimulation::load(const std::string& state, const std::string& origin)
     Archive kept(before.bytes());
     drives_.archive(kept);
     throw;
+  }
+}
+
+void GraphSimulation::load(const std::string& state, const std::string& origin)
+{
+  requireRigidWall();
+  const std::string before = save();
+  loadSession(state, origin);
+  if (session_->seed() != 0)
+  {
+    loadSession(before, origin);
+    throw InputError(origin, "", "has a varied start, which nodes do not have; use simulate --from-state");
   }
   drives_.playFrom(simulation().time());
   beginRun();

@@ -13,6 +13,7 @@
 #include "nodes/rod_dynamics/control/pace.h"
 #include "nodes/rod_dynamics/control/simulation_clock.h"
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
+#include "nodes/rod_dynamics/instruments/graph_hardware.h"
 #include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
 #include "nodes/rod_dynamics/instruments/instrument_publisher.h"
 #include "nodes/rod_dynamics/procedure_publisher.h"
@@ -97,6 +98,7 @@ private:
   void publishStep(const std::vector<simulation::HandCommand>& commands, bool counted);
   ros::Time now() const { return clock_.stamp(session_ ? simulation().steps() : 0); }
   void requireRigidWall() const;
+  void loadSession(const std::string& state, const std::string& origin);
   void beginRun();
 
   ros::NodeHandle& node_;
@@ -111,6 +113,7 @@ private:
   RodPublisher publisher_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DriveCommands drives_;
+  GraphHardware hardware_;
   InstrumentPublisher instruments_;
   HandForceRenderer renderer_;
 };

@@ -65,6 +65,8 @@ constexpr auto kSourceViewImage = "fluoroscopy/source_view/image";
 constexpr auto kSourceViewCameraInfo = "fluoroscopy/source_view/camera_info";
 constexpr auto kCArmCommand = "fluoroscopy/c_arm";
 
+constexpr auto kSensors = "sensors/";  ///< followed by the name of the sensor
+
 constexpr auto kDiagnostics = "/diagnostics";
 
 constexpr auto kRobotDescription = "robot_description";  ///< parameter with the text of the robot's URDF
@@ -90,6 +92,7 @@ constexpr auto kMeasuredCp = "/measured_cp";
 constexpr auto kMeasuredCf = "/measured_cf";
 constexpr auto kOperatingState = "/operating_state";
 constexpr auto kStateReason = "/state_reason";
+constexpr auto kFault = "/fault";  ///< service of instruments
 using drive::kInsertionJoint;
 using drive::kPressureJoint;
 using drive::kRotationJoint;

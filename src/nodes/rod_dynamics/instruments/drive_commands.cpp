@@ -177,12 +177,13 @@ void DriveCommands::updateRevision()
 }
 
 const std::vector<simulation::HandCommand>& DriveCommands::next(const simulation::Simulation& simulation,
-                                                                const std::vector<simulation::HandCommand>* scripted)
+                                                                const std::vector<simulation::HandCommand>* scripted,
+                                                                const robot::CommandFaults& faults)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (player_)
     playFile(simulation.time());
-  const std::vector<simulation::HandCommand>& commands = hands_->next(simulation, scripted);
+  const std::vector<simulation::HandCommand>& commands = hands_->next(simulation, scripted, &faults);
   watchGrips(simulation);
   updateRevision();
   return commands;

@@ -34,9 +34,11 @@ public:
   DriveCommands(ros::NodeHandle& node, const scene::Scene& scene, const std::string& file = "");
 
   /** Commands of the coming step, one per instrument.
-   *  @param scripted commands of the scripted operator; null without one */
+   *  @param scripted commands of the scripted operator; null without one
+   *  @param faults that act on these commands, of which the controls see nothing */
   const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation,
-                                                   const std::vector<simulation::HandCommand>* scripted);
+                                                   const std::vector<simulation::HandCommand>* scripted,
+                                                   const robot::CommandFaults& faults);
 
   /** Gives commands to instruments as a client, all of them or none. Rejections are counted.
    *  @return reason of the first refusal; empty if all were accepted */
