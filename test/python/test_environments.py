@@ -32,6 +32,11 @@ def make(**options):
     return evs.Env(fork(), ("left", 0.01), **options)
 
 
+def worker_env():
+    """Environment of a worker process, which has no world yet."""
+    return make(horizon=3)
+
+
 def actions(count, env, seed=3):
     env.action_space.seed(seed)
     return [env.action_space.sample() for _ in range(count)]
@@ -231,6 +236,22 @@ class Environments(unittest.TestCase):
                 self.assertEqual(observations["target"].shape, (2, 3))
                 self.assertEqual(envs.step(envs.action_space.sample())[1].shape, (2,))
                 envs.close()
+
+    @unittest.skipUnless(_gym.HAS_GYMNASIUM, "gymnasium cannot be imported")
+    def test_have_the_same_trajectories_in_worker_processes(self):
+        import gymnasium
+        hashes = set()
+        for mode in ("fork", "spawn", "forkserver", None):
+            options = {"horizon": 3, "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+            envs = (evs.VectorEnv(2, fork(), ("left", 0.01), **options) if mode is None else
+                    gymnasium.vector.AsyncVectorEnv([worker_env, worker_env], context=mode,
+                                                    autoreset_mode=options["autoreset_mode"]))
+            envs.reset(seed=1)
+            for _ in range(5):
+                infos = envs.step(np.full((2, 1, 2), 0.5, np.float32))[4]
+            hashes.add(tuple(str(one) for one in infos["trajectory_hash"]))
+            envs.close()
+        self.assertEqual(len(hashes), 1)
 
     @unittest.skipUnless(importlib.util.find_spec("stable_baselines3"), "stable-baselines3 cannot be imported")
     def test_pass_the_checks_of_stable_baselines3(self):
