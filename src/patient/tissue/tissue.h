@@ -16,8 +16,8 @@ enum class Tissue
   kBone,  ///< cortex of its usual density; each bone has its own (BodyPart)
   kVesselWall,
   kCalcium,
+  // From here on with contrast medium in a CT angiogram, see hasContrast():
   kMyocardium,
-  // With contrast medium in a CT angiogram:
   kLumen,  ///< of the arteries
   kLeftVentricle,
   kRightVentricle,

@@ -36,6 +36,20 @@ TEST(LeakFuzz, NoWireLeavesARandomChannel)
   EXPECT_GT(deepest, 1e-6);  // the wires touched walls
 }
 
+// Stiff wires of which a few millimetres are in the vessel: their force snaps from one limit to the other within
+// micrometres, so that no position of the hand is within its grip.
+TEST(LeakFuzz, NoHandBearsMoreThanItsGripBesideASnap)
+{
+  FuzzVessels vessels({});
+  FuzzSettings whole;
+  for (const std::uint64_t k : {141, 280})
+  {
+    const FuzzEpisode episode = fuzzEpisode(vessels, whole, k);
+    EXPECT_LE(episode.over_grips, kFuzzOverGrips) << k << ": " << episode.description;
+    EXPECT_GT(episode.over_grips, 0.9) << k;
+  }
+}
+
 TEST(LeakFuzz, AnEpisodeIsIndependentOfEarlierEpisodes)
 {
   FuzzVessels vessels({});
