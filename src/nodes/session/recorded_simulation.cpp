@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/archive.h"
 #include "common/error.h"
 #include "contact/detector.h"
 #include "nodes/conversions/vessel_conversions.h"
@@ -43,6 +44,7 @@ vessel::Vessel recordedVessel(const SessionBag& recording, const std::string& fi
 std::shared_ptr<const session::World> recordedWorld(const SessionBag& recording, const std::string& file)
 {
   scene::Scene scene = scene::parseRecordedScene(recording.info.scene_yaml, file);
+  scene.faults.clear();  // recorded commands are those after all faults
   std::optional<vessel::Vessel> vessel;
   if (scene.vessel)
     vessel = recordedVessel(recording, file);
@@ -77,8 +79,15 @@ RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::s
     settings.wall = {contacts_, contacts_->wall.get()};
   }
   session_.emplace(world, settings);
-  if (!recording.state.empty())
-    session_->load(recording.state, file_ + ": " + names::kSimulationRun);
+  if (recording.state.empty())
+    return;
+  // What follows the simulation in a state has acted on the recorded commands already: drives and faults of the robot.
+  const auto skip = [](Archive* archive, const simulation::Simulation&)
+  {
+    if (archive != nullptr)
+      archive->skipRest();
+  };
+  session_->load(recording.state, file_ + ": " + names::kSimulationRun, skip);
 }
 
 void RecordedSimulation::step(const DriveApplied& applied)
