@@ -38,12 +38,13 @@ def documented():
 
 
 def mentioned():
-    """Names of topics anywhere in the documents, which folders of src with the same first word are not."""
+    """Names of topics anywhere in the documents, which folders of src with the same first word are not, nor former names."""
     names = {}
+    former = set(re.findall(r'\{"/([a-z_/]+)",', text("src/nodes/session/former_names.cpp")))
     for path in glob.glob(repository + "/docs/*.md") + [repository + "/README.md", repository + "/CONTRIBUTING.md"]:
         present = re.sub(r"^## Names agreed for coming parts.*?(?=^## |\Z)", "", open(path).read(), flags=re.MULTILINE | re.DOTALL)
         for name in re.findall(r"`/?(%s/[a-z_<>/]+)`" % FIRST_WORDS, present):
-            if not os.path.exists(os.path.join(repository, "src", name.strip("/"))) and "..." not in name:
+            if not os.path.exists(os.path.join(repository, "src", name.strip("/"))) and "..." not in name and name.strip("/") not in former:
                 names.setdefault(general(name), set()).add(os.path.basename(path))
     return names
 

@@ -74,7 +74,7 @@ def draw_wall_forces(wall, forces):
     for axis, (title, view) in zip(axes, style.VIEWS.items()):
         style.draw_along(axis, wall, view, ".", color="0.8", markersize=1.5, markeredgewidth=0)
         touched = axis.scatter(*(1e3 * forces[key] for key in view), c=forces["peak"], s=14, linewidths=0, cmap=colours,
-                               vmin=0.0, vmax=forces["peak"][-1], zorder=2)
+                               vmin=0.0, vmax=max(forces["peak"], default=1.0), zorder=2)
         axis.set_title(title)
         axis.grid(False)
     figure.colorbar(touched, ax=axes, label="largest force at one contact [N]", shrink=0.8)
@@ -110,7 +110,8 @@ def run(options):
     out.mkdir(parents=True, exist_ok=True)
     style.save(draw_forces(curves_of(folder)), out / "forces.png")
     style.save(draw_tip_path(path), out / "tip_path.png")
-    forces = tables.read_if_any(folder / "wall_forces.csv", ("x", "y", "z", "peak"))
+    forces = (tables.read(folder / "wall_forces.csv", ("x", "y", "z", "peak"))  # also of a wire that touched nothing
+              if (folder / "wall_forces.csv").is_file() else None)
     wall = tables.read_if_any(folder / "vessel_points.csv", ("x", "y", "z"))
     if forces and wall:
         style.save(draw_wall_forces(wall, forces), out / "wall_forces.png")
