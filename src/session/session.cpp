@@ -91,7 +91,7 @@ struct Session::Run
   std::optional<RunRecord> record;
   std::vector<simulation::HandCommand> commands;
   std::vector<simulation::HandCommand> executed;  ///< in the last step, after all faults
-  double seconds = 0.0;  ///< computing time of the last step [s]
+  double seconds = 0.0;                           ///< computing time of the last step [s]
 };
 
 /** X-ray system of a session. */
