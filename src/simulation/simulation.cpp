@@ -271,7 +271,7 @@ drive::GripSearch Simulation::gripSearch() const
 
 /** Steps the wire. A hand that would bear more than its grip slips: the sub-step is repeated until no hand does. Where
  *  no such positions are found, the friction between the instruments yields. Where that does not help, as beside a snap
- * of the wire, the instruments rest for the sub-step, and the hands slip. */
+ *  of the wire, the instruments rest for the sub-step, and the hands slip. */
 void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass)
 {
   before_ = state_;
