@@ -67,6 +67,8 @@ struct Session::Run
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null unless an instrument has a balloon
   simulation::Simulation simulation;
+
+  /** Commands of the operator for the next step, which it gives once; null without a procedure. */
   const std::vector<simulation::HandCommand>* scriptedCommands()
   {
     if (scripted && observed_steps != simulation.steps() + 1)

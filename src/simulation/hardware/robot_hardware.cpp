@@ -15,12 +15,6 @@ RobotHardware::RobotHardware(const scene::Scene& scene, std::uint64_t seed)
 {
 }
 
-void RobotHardware::reset()
-{
-  faults_ = robot::CommandFaults(scene_->faults, commandsAt(*scene_, 0.0), scene_->solver.time_step, seedOfFaults());
-  sensors_ = Sensors(*scene_, seed_);
-}
-
 std::uint64_t RobotHardware::seedOfFaults() const
 {
   return mixedBits(scene_->seed) ^ seed_;

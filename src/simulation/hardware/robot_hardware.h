@@ -46,9 +46,6 @@ public:
   /** Varies the errors, losses and faulty intervals from now on. */
   void setSeed(std::uint64_t seed);
 
-  /** Begins again at the start of the scene, with its faults only. */
-  void reset();
-
   /** Begins again at the present state of a simulation: no sample waits, and no fault has acted. */
   void restartAt(const Simulation& simulation);
 
