@@ -12,6 +12,6 @@ const char* commit();
 
 /** Number of the physics: simulations with equal numbers and equal inputs give equal trajectories, bit for bit. Every
  *  change of results increments it. Recordings hold it, and `replay` requires it. */
-constexpr int kPhysicsNumber = 7;
+constexpr int kPhysicsNumber = 8;
 
 }  // namespace endovascular_sim

@@ -181,9 +181,18 @@ class Session:
                               "--trace", folder + "/trace.csv"], environment)
         self.wait("the device", lambda: os.path.exists(folder + "/device"))
         self.trace = Trace(folder + "/trace.csv")
-        self.graph = self.start("launch", [
-            "roslaunch", "-p", str(port), repository + "/launch/sim.launch", "scene:=" + scene,
-            "device:=" + folder + "/device", "baud:=460800", "results:=" + folder + "/results"], environment)
+        self.graph = self.launch(repository, scene, environment)
+
+    def launch(self, repository, scene, environment):
+        """Starts the graph. roslaunch waits ten seconds for its master, which a busy machine may exceed."""
+        command = ["roslaunch", "-p", str(self.port), repository + "/launch/sim.launch", "scene:=" + scene,
+                   "device:=" + self.folder + "/device", "baud:=460800", "results:=" + self.folder + "/results"]
+        for attempt in range(ATTEMPTS):
+            graph = self.start("launch", command, environment)
+            self.wait("start of the graph", lambda: graph.poll() is not None or self.node_of(graph, "session") is not None)
+            if graph.poll() is None or "could not contact master" not in self.log():
+                break
+        return graph
 
     @staticmethod
     def write_hand(script, moving):
@@ -214,6 +223,8 @@ class Session:
     def wait_for_hand(self):
         """Waits until the hand has inserted the instrument, and holds it with force."""
         def is_held():
+            if self.graph.poll() is not None:
+                raise AssertionError("the graph has ended\n" + self.log())
             self.trace.read()
             return bool(self.trace.rows) and self.trace.rows[-1][0] >= 0.0599 and self.has_recovered(time.monotonic() - 0.2)
         self.wait("insertion by the hand", is_held, 3 * PATIENCE)
@@ -224,9 +235,13 @@ class Session:
         return self.trace.enabled_since(since, math.inf) is not None
 
     def process_of(self, node):
+        return self.node_of(self.graph, node)
+
+    @staticmethod
+    def node_of(graph, node):
         """Process of a node: the child of roslaunch with its name."""
         # A thread of roslaunch starts it again, hence the children of every thread.
-        for children in glob.glob("/proc/%d/task/*/children" % self.graph.pid):
+        for children in glob.glob("/proc/%d/task/*/children" % graph.pid):
             for pid in open(children).read().split():
                 try:
                     words = open("/proc/%s/cmdline" % pid, "rb").read().split(b"\0")

@@ -104,12 +104,23 @@ double measuredTravel(const CoaxialCase& at)
 class CoaxialPair::Wall : public BentTube
 {
 public:
-  explicit Wall(double angle) : BentTube(kCatheterClearance, kBefore, kBendRadius, angle) {}
+  explicit Wall(const CoaxialCase& at)
+    : BentTube(kCatheterClearance, kBefore, kBendRadius, at.angle), ends_(at.tip_across != 0.0)
+  {
+  }
+
+private:
+  bool measure(const Eigen::Vector3d& axis, int face, contact::Feature& feature) const override
+  {
+    return (!ends_ || axis.x() < kBefore + kBeyond) && BentTube::measure(axis, face, feature);
+  }
+
+  bool ends_;
 };
 
 CoaxialPair::~CoaxialPair() = default;
 
-CoaxialPair::CoaxialPair(const CoaxialCase& at) : wall_(std::make_unique<Wall>(at.angle))
+CoaxialPair::CoaxialPair(const CoaxialCase& at) : wall_(std::make_unique<Wall>(at))
 {
   const double inserted = insertedLength(at);
   rod::Layer wire;
@@ -124,7 +135,7 @@ CoaxialPair::CoaxialPair(const CoaxialCase& at) : wall_(std::make_unique<Wall>(a
   input_.layers = {{inserted, 0.0}, {inserted - kProtrusion, 0.0}};
   state_ = stepper_->initialState(input_.layers);
   bendTo(at, position, state_);
-  input_.forces.push_back({static_cast<int>(position.size()) - 1, tipForce(at)});
+  input_.forces.push_back({static_cast<int>(position.size()) - 1, tipForce(at) + at.tip_across * Vector3d::UnitZ()});
   for (int k = 0; k < std::lround(kRest / kTimeStep); ++k)
     step();
   work_ = 0.0;

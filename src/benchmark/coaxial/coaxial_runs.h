@@ -17,6 +17,7 @@ struct CoaxialCase
   double bending_stiffness = 40e-6;  ///< of the wire [N·m²]
   double clearance = 4.445e-4;       ///< radius of the bore less that of the wire [m]
   double edge = 1e-3;                ///< distance of the nodes [m]
+  double tip_across = 0.0;           ///< with the angle 0: force on the tip across, beyond the vessel's end [N]
 };
 
 /** Force of the hand on the sliding wire, in the direction of its motion, in a catheter that follows the bend [N]. */

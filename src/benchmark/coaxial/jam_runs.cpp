@@ -25,6 +25,8 @@ constexpr double kBendRadius = 0.03;      // m
 constexpr double kBefore = 0.06;          // m, straight part before the first bend
 constexpr double kBeyond = 0.03;          // m, straight part after the last one
 constexpr double kProtrusion = 2e-3;      // m, of the wire beyond the catheter at the closed end
+constexpr double kNarrow = 1e-4;          // m, clearance below which the catheter is thin
+constexpr double kGap = 1e-4;             // m, between catheter and vessel
 constexpr double kTip = 3e-3;             // m of the wire that do not buckle beyond the catheter
 constexpr double kStiffTip = 10.0;        // bending stiffness over that of the wire
 constexpr double kWireRadius = 2e-4;      // m
@@ -109,14 +111,15 @@ std::string sceneOf(const JamCase& at)
   const double wire = lengthOf(at.path) - 0.5e-3;
   const double catheter = wire - kProtrusion;
   const double begin = 0.9 * kBefore;
-  out << "name: jam\nduration: 1.0e6\nvessel:\n  tube: {radius: 0.9e-3, facet_length: 1.0e-3, facets_around: 24, "
-         "pieces: ["
-      << piecesOf(at.path) << "]}\n  friction: 0\nentry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n"
+  const double catheter_radius = at.clearance < kNarrow ? 0.3e-3 : 0.8e-3;
+  out << "name: jam\nduration: 1.0e6\nvessel:\n  tube: {radius: " << catheter_radius + kGap
+      << ", facet_length: 1.0e-3, facets_around: 24, pieces: [" << piecesOf(at.path)
+      << "]}\n  friction: 0\nentry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}\n"
       << "instruments:\n"
       << instrumentOf("wire", wire + kOutside + kPushed, kTip, kWireRadius, kStiffness,
                       "    friction: " + std::to_string(at.friction) + "\n    fit_load: 0\n")
       << driveOf(begin, wire, kPushed, at.grip)
-      << instrumentOf("catheter", catheter + kOutside, 0.0, 0.8e-3, 2e-4,
+      << instrumentOf("catheter", catheter + kOutside, 0.0, catheter_radius, 2e-4,
                       "      kind: catheter\n      inner_radius: " + std::to_string(kWireRadius + at.clearance) + "\n")
       << driveOf(begin - kProtrusion, catheter, 0.0, at.grip)
       << "loads: {damping: 5}\nsampling: {kind: uniform, nodes: 161}\nsolver: {time_step: 0.002}\n";
@@ -140,6 +143,27 @@ double loadAtStop(const rod::State& state)
   return -sum.dot((at[i] - at[straight]).normalized());
 }
 
+/** Force and moment of the wall on the wire beyond the catheter. */
+void addEndLoad(const rod::State& state, JamSample& sample)
+{
+  const std::vector<Vector3d>& at = state.position;
+  double from_tip = 0.0;
+  std::size_t i = at.size() - 1;
+  for (;; --i)
+  {
+    const double edge = (at[i] - at[i - 1]).norm();
+    if (from_tip + edge > sample.protrusion)
+      break;
+    from_tip += edge;
+  }
+  const Vector3d tip = at[i] + (sample.protrusion - from_tip) * (at[i - 1] - at[i]).normalized();
+  for (; i < at.size(); ++i)
+  {
+    sample.end_force += state.wall_force[i];
+    sample.end_moment += (at[i] - tip).cross(state.wall_force[i]);
+  }
+}
+
 JamSample sampleOf(const simulation::Simulation& simulation)
 {
   JamSample sample;
@@ -149,6 +173,7 @@ JamSample sampleOf(const simulation::Simulation& simulation)
   sample.insertion = simulation.hand(0).insertion;
   sample.protrusion = sample.insertion - simulation.hand(1).insertion;
   sample.tip_load = loadAtStop(state);
+  addEndLoad(state, sample);
   sample.axis.assign(state.position.begin() + state.first_node, state.position.end());
   return sample;
 }
@@ -324,13 +349,18 @@ double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamRef
   return sum / count;
 }
 
-double staticForceInRigidTube(const JamCase& at, const JamSample& sample, double spacing)
+double staticForceInRigidTube(const JamCase& at, const JamSample& sample, JamMouth mouth, double spacing)
 {
   double length = 0.0;
   for (std::size_t i = 1; i < sample.axis.size(); ++i)
     length += (sample.axis[i] - sample.axis[i - 1]).norm();
-  const BoreAxis axis = boreAxis(sample.axis, length - sample.insertion, length - sample.protrusion, spacing);
-  return pushThroughBore({kStiffness, at.clearance, at.friction}, axis, sample.tip_load);
+  const Bore bore = boreAlong(sample.axis, length - sample.insertion, length - sample.protrusion, spacing,
+                              {at.clearance, at.friction});
+  const Vector3d force = bore.end * sample.end_force;
+  const Vector3d couple = bore.end * sample.end_moment.cross(bore.end.row(2).transpose());
+  if (mouth == JamMouth::kFree)
+    return pushThroughBore(kStiffness, bore, {-force.z()});
+  return pushThroughBore(kStiffness, bore, {-force.z(), force.head<2>(), couple.head<2>()});
 }
 
 }  // namespace endovascular_sim::benchmark

@@ -33,12 +33,14 @@ std::vector<JamCase> jamCases();
 /** Jam at one time. */
 struct JamSample
 {
-  double tip_load = 0.0;              ///< of the stop on the wire beyond the catheter [N]
-  double wire = 0.0;                  ///< force of the wire on its hand [N]
-  double catheter = 0.0;              ///< force of the catheter on its hand [N]
-  double insertion = 0.0;             ///< of the wire [m]
-  double protrusion = 0.0;            ///< of the wire beyond the catheter [m]
-  std::vector<Eigen::Vector3d> axis;  ///< centreline [m]
+  double tip_load = 0.0;                                 ///< of the stop on the wire beyond the catheter [N]
+  double wire = 0.0;                                     ///< force of the wire on its hand [N]
+  double catheter = 0.0;                                 ///< force of the catheter on its hand [N]
+  double insertion = 0.0;                                ///< of the wire [m]
+  double protrusion = 0.0;                               ///< of the wire beyond the catheter [m]
+  Eigen::Vector3d end_force = Eigen::Vector3d::Zero();   ///< of stop and vessel on the wire beyond the catheter [N]
+  Eigen::Vector3d end_moment = Eigen::Vector3d::Zero();  ///< of these forces about the tip of the catheter [N·m]
+  std::vector<Eigen::Vector3d> axis;                     ///< centreline [m]
 };
 
 /** Largest values over a run. */
@@ -70,8 +72,15 @@ struct JamReference
  *  against the load of the sample on its tip [N]. Without friction it is that load. */
 double forceInRigidTube(const JamCase& at, const JamSample& sample, const JamReference& reference);
 
-/** As forceInRigidTube(), by pushThroughBore().
+/** Load of the wire beyond the catheter on the end of the rigid tube's wire. */
+enum class JamMouth
+{
+  kFree,   ///< its part along the tube
+  kLoaded  ///< the whole force, and its moment about the tip of the catheter
+};
+
+/** As forceInRigidTube(), by pushThroughBore(), against the forces on the wire beyond the catheter.
  *  @param spacing of the stations [m] */
-double staticForceInRigidTube(const JamCase& at, const JamSample& sample, double spacing = 5e-4);
+double staticForceInRigidTube(const JamCase& at, const JamSample& sample, JamMouth mouth, double spacing = 5e-4);
 
 }  // namespace endovascular_sim::benchmark

@@ -164,7 +164,9 @@ void InterlayerLoads::placeNodes(const LayerPair& pair, int end, const State& st
     node.cell = model_.rod.cell_length[i];
     node.edge = i + 1 < model_.rod.nodes() ? model_.rod.rest_length[i] : node.cell;
     const double share = i < end ? 1.0 : continued;
-    node.moment = share * across(moment_[pair.inner][i].cross(tangent_[i]), i);
+    // The end of the outer layer bears no moment: there the wire has that of the stack.
+    const Eigen::Vector3d& moment = moment_[i < end ? pair.inner : pair.outer][i];
+    node.moment = share * across(moment.cross(tangent_[i]), i);
     node.curvature = across(binormal_[i].cross(tangent_[i]) / node.cell, i);
     if (i > end)
       continue;
@@ -237,17 +239,17 @@ double InterlayerLoads::updateTension(const LayerPair& pair, int end, int first,
   }
 }
 
-/** Takes over the loads of a solution in the bore. They change with the tension by the curvature towards the side on
- *  which the wire bears. */
+/** Takes over the loads of a solution in the bore, per length of wall. They change with the tension by the curvature
+ * towards the side on which the wire bears. */
 void InterlayerLoads::updateBoreLoads()
 {
   for (std::size_t i = 1; i < bore_load_.size(); ++i)
   {
     const BoreNode& node = nodes_[i];
-    const double load = bore_.load()[i];
+    const double load = node.wall > 0.0 ? bore_.load()[i] / node.wall : 0.0;
     bore_load_[i].value = load;
     bore_load_[i].tension = 0.5 * (nodes_[i - 1].tension + node.tension);
-    bore_load_[i].slope = load > 0.0 ? node.curvature.dot(node.shift) / node.shift.norm() : 0.0;
+    bore_load_[i].slope = load > 0.0 ? node.curvature.dot(node.shift) / (node.wall * node.shift.norm()) : 0.0;
   }
 }
 

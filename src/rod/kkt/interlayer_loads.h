@@ -45,7 +45,7 @@ private:
   /** Load of a solution in the bore, near the tension of that solution. */
   struct BoreLoad
   {
-    double value = 0.0;    ///< at the tension of the solution [N/m]
+    double value = 0.0;    ///< at the tension of the solution, per length of wall [N/m]
     double tension = 0.0;  ///< mean of the tensions on both sides of the node [N]
     double slope = 0.0;    ///< change with that mean [1/m]
   };

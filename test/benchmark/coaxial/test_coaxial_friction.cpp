@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "benchmark/coaxial/coaxial_runs.h"
 
@@ -39,6 +40,45 @@ TEST(CoaxialFriction, TheHandForceInACatheterIsThatInARigidTube)
       const double reference = forceInTube(at);
       EXPECT_NEAR(forceInCatheter(at), reference, 0.03 * std::abs(reference) + 2e-3) << tension << " " << pull;
     }
+}
+
+/** Force of the hand that withdraws a wire with a force F across its tip from a straight catheter [N], in ten parts of
+ * an edge. */
+std::vector<double> forcesOfAPressedMouth(double friction, double edge)
+{
+  CoaxialCase at;
+  at.angle = 0.0;
+  at.tip_tension = 0.0;
+  at.tip_across = 0.1;
+  at.friction = friction;
+  at.edge = edge;
+  CoaxialPair pair(at);
+  pair.move(-2e-3);
+  std::vector<double> forces;
+  for (int part = 0; part < 10; ++part)
+    forces.push_back(-pair.move(-0.1 * edge));
+  return forces;
+}
+
+// The moment M at the mouth is borne by a pair of forces at the distance d at which the wire crosses the bore:
+// 2 c = M d²/(6 B). The part of a node's cell that the catheter covers changes while the wire slides; the load does
+// not.
+TEST(CoaxialFriction, TheMouthOfTheCatheterHasTheFrictionOfAPairOfForcesWhereverItLiesBetweenTwoNodes)
+{
+  const CoaxialCase at;
+  for (const double edge : {1e-3, 2e-3})
+  {
+    const std::vector<double> rough = forcesOfAPressedMouth(0.2, edge);
+    const std::vector<double> smooth = forcesOfAPressedMouth(1e-9, edge);
+    for (std::size_t part = 0; part < rough.size(); ++part)
+    {
+      const double beyond = 0.018 - 0.1 * edge * static_cast<double>(part + 1);
+      const double moment = 0.1 * beyond;
+      const double distance = std::sqrt(12.0 * at.clearance * at.bending_stiffness / moment);
+      const double friction = 0.2 * (0.1 + 2.0 * moment / distance);
+      EXPECT_NEAR(rough[part] - smooth[part], friction, 0.2 * friction) << edge << " " << part;
+    }
+  }
 }
 
 TEST(CoaxialFriction, AReversalOverTheElasticDisplacementTurnsTheFrictionAround)

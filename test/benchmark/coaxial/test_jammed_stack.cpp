@@ -25,8 +25,14 @@ TEST_P(JammedStack, TheHandsKeepToTheirGripsAndTheForceIsThatInARigidTube)
   EXPECT_LE(result.imbalance, 1e-9);
   EXPECT_LE(result.unexplained, 1e-2);
   EXPECT_EQ(result.rejected, 0);
-  const double reference = staticForceInRigidTube(GetParam(), result.pushed);
-  EXPECT_NEAR(result.pushed.wire, reference, 0.05 * result.pushed.wire + 5e-3);
+  const JamSample& pushed = result.pushed;
+  const double bound = 0.05 * pushed.wire + 5e-3;
+  EXPECT_NEAR(pushed.wire, staticForceInRigidTube(GetParam(), pushed, JamMouth::kFree), bound);
+  // Near the lock-up, 1 % of the load at the stop changes the force of the hand by more than 10 %.
+  if (pushed.wire < 10.0 * pushed.tip_load)
+  {
+    EXPECT_NEAR(pushed.wire, staticForceInRigidTube(GetParam(), pushed, JamMouth::kLoaded), bound);
+  }
 }
 
 std::string identifierOf(const testing::TestParamInfo<JamCase>& info)
