@@ -17,6 +17,7 @@ _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7  # kinds of records
 # Names of bags of version 0.1, and the present ones.
 _TOPICS = {"vessel/pressing": "vessel/balloon_load", "vessel/moved": "vessel/wall_displacement"}
 _FIELDS = {"new_tries": "retries"}
+_READING = ("sequence", "step", "delivered_step", "time", "valid", "values")
 _NUMBERS = {"bool": "?", "byte": "b", "char": "B", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
             "uint32": "I", "int64": "q", "uint64": "Q", "float32": "f", "float64": "d"}
 
@@ -32,6 +33,8 @@ class Bag:
     hashes      of the state after each step, texts of 16 hexadecimal digits
     pose_times  simulated times of the recorded poses [s], [pose]
     poses       of the wire, a list of arrays [node, 3], patient frame [m]
+    sensors     by name, a dictionary of arrays per sample: sequence, step, delivered_step, time [s], valid [sample], and
+                values [sample, value]; empty without sensors
     scene       complete text of the scene
     info        identity of the recording, a dictionary: seed, time_step, physics_number, commit, ...
     topics      number of messages per topic
@@ -106,6 +109,13 @@ class Bag:
     @property
     def poses(self):
         return [pose["nodes"] for pose in self._states]
+
+    @functools.cached_property
+    def sensors(self):
+        names = sorted(topic for topic in self.topics if re.search(r"(^|/)sensors/[^/]+$", topic))
+        readings = {topic.rpartition("/")[2]: [reading for _, reading in self.read(topic)] for topic in names}
+        return {name: {field: np.array([reading[field] for reading in of_name]) for field in _READING}
+                for name, of_name in readings.items()}
 
     def __repr__(self):
         return "<Bag '%s', %d messages>" % (self.path, sum(self.topics.values()))

@@ -16,6 +16,7 @@
 
 #include "endovascular_sim/SensorReading.h"
 #include "endovascular_sim/SetFault.h"
+#include "nodes/session/bag_records.h"
 #include "session/session.h"
 #include "test/nodes/graph_testing.h"
 #include "test/nodes/simulation_client.h"
@@ -108,12 +109,15 @@ protected:
   static std::vector<ros::Subscriber> subscribers_;
   static std::mutex mutex_;
   static Lines lines_;
+  static Lines first_run_, second_run_;  ///< samples of the runs before and after the state was loaded
 };
 
 std::unique_ptr<SimulationClient> SensorsOfTheGraph::client_;
 std::vector<ros::Subscriber> SensorsOfTheGraph::subscribers_;
 std::mutex SensorsOfTheGraph::mutex_;
 Lines SensorsOfTheGraph::lines_;
+Lines SensorsOfTheGraph::first_run_;
+Lines SensorsOfTheGraph::second_run_;
 
 SetFault::Request slipping()
 {
@@ -219,6 +223,24 @@ for call in range(4):
   return lines;
 }
 
+/** Samples of a recording. */
+Lines linesOfBag(const std::string& file)
+{
+  Lines lines;
+  const std::string damage = nodes::readBagMessages(
+      file,
+      [&lines](const nodes::BagMessage& message)
+      {
+        if (!message.is<SensorReading>())
+          return;
+        const auto reading = message.read<SensorReading>();
+        lines[message.topic.substr(message.topic.rfind('/') + 1)].push_back(
+            lineOf(reading->delivered_step, reading->sequence, reading->step, reading->valid != 0, reading->values));
+      });
+  EXPECT_EQ(damage, "");
+  return lines;
+}
+
 // Must run first.
 TEST_F(SensorsOfTheGraph, A_RefusedFaultsNameTheReasonAndChangeNothing)
 {
@@ -272,6 +294,7 @@ TEST_F(SensorsOfTheGraph, B_ReadingsAndTrajectoryAreThoseOfASessionAndOfPython)
   ASSERT_TRUE(waitUntil(20.0, [&] { return received() >= countOf(reference.lines()); }));
   graph = takeLines();
   EXPECT_EQ(graph, reference.lines());
+  first_run_ = graph;
 #ifndef ENDOVASCULAR_SANITIZED  // an interpreter does not load a sanitised module
   if (std::filesystem::exists(pythonPath() / "endovascular_sim" / "env.py"))
   {
@@ -295,14 +318,17 @@ TEST_F(SensorsOfTheGraph, C_ASavedStateContinuesWithTheSameReadings)
     return takeLines();
   };
   const Lines first = push();
+  for (const auto& [name, lines] : first)
+    first_run_[name].insert(first_run_[name].end(), lines.begin(), lines.end());
   const StateFile::Response loaded = client_->file("simulation/load_state", file);
   ASSERT_TRUE(loaded.success) << loaded.message;
-  EXPECT_EQ(push(), first);
+  second_run_ = push();
+  EXPECT_EQ(second_run_, first);
   std::filesystem::remove(file);
 }
 
 // Must run last.
-TEST_F(SensorsOfTheGraph, D_TheRecordingReplaysWithoutItsFaults)
+TEST_F(SensorsOfTheGraph, D_TheRecordingReplaysWithoutItsFaultsAndHoldsTheReadings)
 {
   const std_srvs::Trigger::Response stopped = client_->trigger("session/stop");
   ASSERT_TRUE(stopped.success) << stopped.message;
@@ -310,6 +336,8 @@ TEST_F(SensorsOfTheGraph, D_TheRecordingReplaysWithoutItsFaults)
   const std::filesystem::path first = folder.filename().string().rfind("run_", 0) == 0 ? folder.parent_path() : folder;
   replayedHash(first / "session.bag");
   replayedHash(first / "run_2" / "session.bag");
+  EXPECT_EQ(linesOfBag(first / "session.bag"), first_run_);
+  EXPECT_EQ(linesOfBag(first / "run_2" / "session.bag"), second_run_);
 }
 
 }  // namespace

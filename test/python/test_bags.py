@@ -76,6 +76,17 @@ class Bags(unittest.TestCase):
         np.testing.assert_array_equal(bag.pose_times, [0.5])
         np.testing.assert_array_equal(bag.poses[0], [[0, 1, 2], [3, 4, 5]])
 
+    def test_hold_the_readings_of_sensors(self):
+        definition = b"uint64 sequence\nuint64 step\nuint64 delivered_step\nfloat64 time\nbool valid\nfloat64[] values"
+        data = struct.pack("<QQQd?I2d", 3, 7, 9, 0.007, True, 2, 0.1, -0.2)
+        bag = self.written(small_bag(topic=b"/left/sensors/encoder", definition=definition, data=data))
+        self.assertEqual(list(bag.sensors), ["encoder"])
+        encoder = bag.sensors["encoder"]
+        np.testing.assert_array_equal(encoder["values"], [[0.1, -0.2]])
+        self.assertEqual([encoder[name][0] for name in ("sequence", "step", "delivered_step", "time", "valid")],
+                         [3, 7, 9, 0.007, True])
+        self.assertEqual(evs.Bag(SESSION).sensors, {})
+
     def test_of_a_former_version_have_the_present_names(self):
         bag = evs.Bag(FORMER_SESSION)
         self.assertEqual(bag.topics["/vessel/wall_displacement"], 13)

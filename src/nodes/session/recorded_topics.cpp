@@ -16,6 +16,7 @@
 #include "common/version.h"
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/ProcedureStep.h"
+#include "endovascular_sim/SensorReading.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/WallDisplacement.h"
@@ -139,6 +140,8 @@ void RecordedTopics::subscribeToWire()
     recordLatched<crtk_msgs::OperatingState>(instrument + names::kOperatingState, kQueue);
     recordLatched<crtk_msgs::StringStamped>(instrument + names::kStateReason, kQueue);
   }
+  for (const sensor::SensorSettings& sensor : scene_.sensors)
+    record<SensorReading>(names::kSensors + sensor.name, kStepQueue);
 }
 
 void RecordedTopics::subscribeToVessel()
