@@ -12,6 +12,7 @@
 #include "common/hash.h"
 #include "parallel.h"
 #include "session.h"
+#include "simulation/contact_forces.h"
 
 namespace endovascular_sim::python
 {
@@ -27,17 +28,20 @@ struct PeakRow
   double wall_force, tip_force, hand_force;
 };
 
-/** Takes the forces of the last step into account. */
+/** Takes the forces of the last step into account: those of Observation::forces(), whose places are not needed. */
 void update(PeakRow& peak, const session::Session& session)
 {
   const session::Observation& seen = session.observe();
+  const std::vector<Eigen::Vector3d>& wall_force = session.simulation().state().wall_force;
   const std::vector<double>& arc = session.simulation().discretisation().position;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();
-  for (const simulation::WallContact& contact : seen.forces())
+  for (auto i = static_cast<std::size_t>(seen.firstNode()); i < wall_force.size(); ++i)
   {
-    peak.wall_force = std::max(peak.wall_force, contact.normal_force.norm());
-    if (arc[static_cast<std::size_t>(contact.node)] > arc.back() - kTipLength)
-      tip += contact.normal_force + contact.friction_force;
+    if (wall_force[i].isZero(0.0))
+      continue;
+    peak.wall_force = std::max(peak.wall_force, wall_force[i].norm());
+    if (arc[i] > arc.back() - kTipLength)
+      tip += wall_force[i] + simulation::wallFriction(session.simulation(), static_cast<int>(i));
   }
   peak.tip_force = std::max(peak.tip_force, tip.norm());
   for (int k = 0; k < seen.instruments(); ++k)

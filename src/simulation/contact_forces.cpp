@@ -52,6 +52,11 @@ void listTouched(const Simulation& simulation, const std::vector<int>& at_node, 
 
 }  // namespace
 
+Eigen::Vector3d wallFriction(const Simulation& simulation, int node)
+{
+  return rod::frictionForce(simulation.state(), node, rod::StepperSettings().friction_slip);
+}
+
 void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts)
 {
   const rod::State& state = simulation.state();
@@ -64,7 +69,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
       continue;
     WallContact contact;
     contact.normal_force = state.wall_force[i];
-    contact.friction_force = rod::frictionForce(state, i, rod::StepperSettings().friction_slip);
+    contact.friction_force = wallFriction(simulation, i);
     contact.position = state.position[i];
     contact.node = i;
     contact.gap = std::numeric_limits<double>::infinity();

@@ -25,6 +25,9 @@ struct WallContact
   std::array<int, kMostFacets> touched = {-1, -1, -1, -1, -1, -1};
 };
 
+/** Friction force of the wall on a node after the last step [N]. */
+Eigen::Vector3d wallFriction(const Simulation& simulation, int node);
+
 /** Nodes with wall force after the last step, in their order, each with the nearest wall feature. Features on the
  *  node's own halves of its edges take precedence over those on the far halves. */
 void wallContacts(const Simulation& simulation, std::vector<WallContact>& contacts);

@@ -50,6 +50,12 @@ std::pair<Vector2d, Vector2d> nodalCurvature(const Discretisation& rod, const Mo
           -inverse * restAngleSlope(rod.curved_parts, rod.position, node, mouth)};
 }
 
+/** Bending stiffness of an edge times its length [N·m³]. */
+double weightOf(const Discretisation& rod, int edge)
+{
+  return 0.5 * (rod.bending_stiffness[edge] + rod.bending_stiffness[edge + 1]) * rod.rest_length[edge];
+}
+
 /** True where rest curvature may differ from its mean over the nodes of an edge. */
 bool isUneven(const Discretisation& rod, const Mouth& mouth, int edge)
 {
@@ -105,12 +111,18 @@ RestBow restBowAt(const Discretisation& rod, const Mouth& mouth, int edge)
   return bow;
 }
 
-bool CurvedGuide::isUneven(const Discretisation& rod, const TwistBoundary& hold, const State& state) const
+double CurvedGuide::forceAtMouth(const Discretisation& rod, const TwistBoundary& hold, const State& state) const
 {
+  Walk walk{rod, hold, state, {hold.tangent, hold.director}};
+  CurvedGuideTerm term;
+  double force = 0.0;
   for (int j = state.first_node; j + 1 < rod.nodes() && guide_.holds(state.position[j]); ++j)
-    if (rod::isUneven(rod, hold.mouth(), j))
-      return true;
-  return false;
+    if (follow(walk, j))
+    {
+      evaluateUneven(walk, j, term);
+      force -= term.by_mouth;
+    }
+  return force;
 }
 
 /** Bow by the positions of four nodes: the mean of the curvatures at both ends of the edge, which are linear in the
@@ -138,37 +150,45 @@ EdgeBow CurvedGuide::bowOf(const Walk& walk, int edge, CurvedGuideTerm& term)
   return bow;
 }
 
-void CurvedGuide::evaluate(Walk& walk, int edge, CurvedGuideTerm& term) const
+/** Moves the frame to an edge, from the first one on that carries a RestBow or lies beyond the hold.
+ *  @return true where the edge may have a RestBow */
+bool CurvedGuide::follow(Walk& walk, int edge)
 {
   const Discretisation& rod = walk.rod;
+  const bool beyond = 0.5 * (rod.position[edge] + rod.position[edge + 1]) >= walk.hold.position;
+  const bool uneven = isUneven(rod, walk.hold.mouth(), edge);
+  walk.curved = walk.curved || uneven || beyond;
+  if (walk.curved)
+    walk.frame.moveTo((walk.state.position[edge + 1] - walk.state.position[edge]).normalized());
+  return uneven;
+}
+
+void CurvedGuide::evaluate(Walk& walk, int edge, CurvedGuideTerm& term) const
+{
+  if (follow(walk, edge))
+  {
+    evaluateUneven(walk, edge, term);
+    return;
+  }
+  const std::vector<Vector3d>& x = walk.state.position;
+  guide_.evaluate(x[edge], x[edge + 1], bowOf(walk, edge, term), weightOf(walk.rod, edge), term.edge);
+  term.by_mouth = 0.0;
+}
+
+/** Computes the term of an edge with a RestBow, whose frame is that of the walk. */
+void CurvedGuide::evaluateUneven(const Walk& walk, int edge, CurvedGuideTerm& term) const
+{
   const State& state = walk.state;
   const Vector3d& first = state.position[edge];
   const Vector3d& second = state.position[edge + 1];
-  const double weight = 0.5 * (rod.bending_stiffness[edge] + rod.bending_stiffness[edge + 1]) * rod.rest_length[edge];
   EdgeBow bow = bowOf(walk, edge, term);
-  term.by_mouth = 0.0;
-  const Mouth mouth = walk.hold.mouth();
-  const bool beyond = 0.5 * (rod.position[edge] + rod.position[edge + 1]) >= walk.hold.position;
-  const bool uneven = rod::isUneven(rod, mouth, edge);
-  if (!uneven && !walk.curved && !beyond)
-  {
-    guide_.evaluate(first, second, bow, weight, term.edge);
-    return;
-  }
-  walk.curved = true;
-  walk.frame.moveTo((second - first).normalized());
-  if (!uneven)
-  {
-    guide_.evaluate(first, second, bow, weight, term.edge);
-    return;
-  }
-  const RestBow rest = restBowAt(rod, mouth, edge);
+  const RestBow rest = restBowAt(walk.rod, walk.hold.mouth(), edge);
   const auto [m1, m2] = walk.frame.materialAxes(state.twist_angle[edge]);
   const Vector3d even = rest.even.x() * m1 + rest.even.y() * m2;
   const Vector3d odd = rest.odd.x() * m1 + rest.odd.y() * m2;
   bow.even += even;
   bow.odd += odd;
-  guide_.evaluate(first, second, bow, weight, term.edge);
+  guide_.evaluate(first, second, bow, weightOf(walk.rod, edge), term.edge);
   term.by_mouth = term.edge.by_bow.even.dot(rest.even_slope.x() * m1 + rest.even_slope.y() * m2) +
                   term.edge.by_bow.odd.dot(rest.odd_slope.x() * m1 + rest.odd_slope.y() * m2);
   const Vector3d couple = even.cross(term.edge.by_bow.even) + odd.cross(term.edge.by_bow.odd);

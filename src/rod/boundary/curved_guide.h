@@ -51,8 +51,9 @@ public:
     return state.layers.size() <= 1 && rod.first_curved < rod.nodes() && !rod.curved_parts.empty();
   }
 
-  /** True where an edge in the guide has a RestBow. */
-  bool isUneven(const Discretisation& rod, const TwistBoundary& hold, const State& state) const;
+  /** Force on the wire along itself at the mouth: the negative derivative of the energy by the mouth's arc length, at
+   *  fixed nodes [N]. */
+  double forceAtMouth(const Discretisation& rod, const TwistBoundary& hold, const State& state) const;
 
   /** Calls visit(edge, term) for every edge in the guide. */
   template <typename Visit>
@@ -78,7 +79,9 @@ private:
     bool curved = false;  ///< the frame is that of the last edge
   };
 
+  static bool follow(Walk& walk, int edge);
   void evaluate(Walk& walk, int edge, CurvedGuideTerm& term) const;
+  void evaluateUneven(const Walk& walk, int edge, CurvedGuideTerm& term) const;
   static EdgeBow bowOf(const Walk& walk, int edge, CurvedGuideTerm& term);
 
   const IntroducerGuide& guide_;

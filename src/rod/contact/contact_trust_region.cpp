@@ -18,12 +18,6 @@ constexpr double kShareOfClearance = 0.9;     // of the axis' distance from the 
 
 }  // namespace
 
-double ContactTrustRegion::listedMargin(int node) const
-{
-  const auto i = static_cast<std::size_t>(node);
-  return i < margins_.size() ? margins_[i] : usualMargin(node);
-}
-
 void ContactTrustRegion::storeMargins()
 {
   const contact::Query& query = query_.query();

@@ -58,7 +58,11 @@ private:
   template <typename Value>
   double leastAround(int node, const Value& value) const;
   double usualMargin(int node) const { return settings_.contact_margin * marginShare(surface_.radius(node)); }
-  double listedMargin(int node) const;
+  double listedMargin(int node) const
+  {
+    const auto i = static_cast<std::size_t>(node);
+    return i < margins_.size() ? margins_[i] : usualMargin(node);
+  }
   void storeMargins();
   void findAxisClearances(const std::vector<contact::Feature>& features);
   double motionInReaches(const NodalMotion& motion, int first) const;

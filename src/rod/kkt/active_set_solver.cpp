@@ -200,9 +200,11 @@ void ActiveSetSolver<Layout>::spreadSystem()
 {
   constexpr int kNarrow = 4;
   const int nodes = model_.rod.nodes() - system_.first;
-  base_.reset(Layout::kPeriod * nodes);
+  base_.resize(Layout::kPeriod * nodes);
   base_rhs_.assign(static_cast<std::size_t>(base_.size()), 0.0);
   for (int i = 0; i < nodes; ++i)
+  {
+    std::fill_n(base_.column(Layout::kPeriod * i), Layout::kPeriod * Matrix::kStride, 0.0);
     for (int place = 0; place < kNarrow; ++place)
     {
       const int begin = kNarrow * i;
@@ -213,6 +215,7 @@ void ActiveSetSolver<Layout>::spreadSystem()
       for (int below = place; below <= last; ++below)
         target[below + below / kNarrow] = system_.matrix.at(begin + below, begin + place);
     }
+  }
 }
 
 template <class Layout>

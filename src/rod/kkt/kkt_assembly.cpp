@@ -314,14 +314,9 @@ double KktAssembly::introducerEnergy(const State& state) const
 
 double KktAssembly::guideRestForce(const State& state) const
 {
-  double force = 0.0;
   if (!model_.boundary.introducer || !CurvedGuide::matters(model_.rod, state))
-    return force;
-  const TwistBoundary hold = model_.conditions.twistBoundary(state, 0.0);
-  if (curved_guide_.isUneven(model_.rod, hold, state))
-    curved_guide_.forEachEdge(model_.rod, hold, state,
-                              [&force](int /*edge*/, const CurvedGuideTerm& term) { force -= term.by_mouth; });
-  return force;
+    return 0.0;
+  return curved_guide_.forceAtMouth(model_.rod, model_.conditions.twistBoundary(state, 0.0), state);
 }
 
 }  // namespace endovascular_sim::rod

@@ -26,10 +26,16 @@ public:
   /** Sets the size and zeroes the band; allocates only when it grows. */
   void reset(int size)
   {
+    resize(size);
+    std::fill(band_.begin(), band_.end(), 0.0);
+  }
+
+  /** Sets the size, for a caller that sets all columns; allocates only when it grows. */
+  void resize(int size)
+  {
     size_ = size;
     begin_ = 0;
     band_.resize(static_cast<std::size_t>(size) * kStride);
-    std::fill(band_.begin(), band_.end(), 0.0);
   }
 
   int size() const { return size_; }

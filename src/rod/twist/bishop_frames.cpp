@@ -29,11 +29,13 @@ double frameTurn(const Eigen::Vector3d& director_before, const Eigen::Vector3d& 
 void BishopFrames::transport(const Discretisation& rod, const TwistBoundary& boundary, const State& state)
 {
   const int edges = rod.nodes() - 1;
-  director_.assign(static_cast<std::size_t>(edges), boundary.director);
-  normal_.assign(static_cast<std::size_t>(edges), boundary.tangent.cross(boundary.director));
+  director_.resize(static_cast<std::size_t>(edges));
+  normal_.resize(static_cast<std::size_t>(edges));
   int first = state.first_node;
   while (first + 1 < edges && 0.5 * (rod.position[first] + rod.position[first + 1]) < boundary.position)
     ++first;
+  std::fill_n(director_.begin(), first, boundary.director);
+  std::fill_n(normal_.begin(), first, Eigen::Vector3d(boundary.tangent.cross(boundary.director)));
   Eigen::Vector3d tangent = boundary.tangent;
   Eigen::Vector3d director = boundary.director;
   for (int j = first; j < edges; ++j)

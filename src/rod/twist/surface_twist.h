@@ -35,7 +35,6 @@ struct SurfaceTwist
     upper.assign(edges, 0.0);
     weight.assign(edges + 1, {0.0, 0.0});
     mixed.clear();
-    stiffness.clear();
   }
 
   std::vector<char> unknown;                  ///< 0: the edge does not turn beyond the prediction
@@ -44,7 +43,7 @@ struct SurfaceTwist
   std::vector<double> upper;                  ///< Hessian of every edge and the next one [N·m/rad]
   std::vector<std::array<double, 2>> weight;  ///< turn of every node: weights of the edges before and after it
   std::vector<MixedDerivatives> mixed;        ///< per edge; empty: turns and positions are not coupled
-  std::vector<EdgeStiffness> stiffness;       ///< per node; empty likewise
+  std::vector<EdgeStiffness> stiffness;       ///< per node with two simulated edges; where mixed is not empty
 };
 
 }  // namespace endovascular_sim::rod

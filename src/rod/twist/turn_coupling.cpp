@@ -63,7 +63,7 @@ TurnCoupling::TurnCoupling(const Discretisation& rod, const State& state, int fi
   const SurfaceTwist::MixedDerivatives none = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   const int n = rod.nodes();
   surface.mixed.assign(static_cast<std::size_t>(n - 1), none);
-  surface.stiffness.assign(static_cast<std::size_t>(n), {});
+  surface.stiffness.resize(static_cast<std::size_t>(n));
   for (int i = state.first_node + 1; i + 1 < n; ++i)
   {
     const CurvatureBinormal kb = binormalAt(rod, state, i);

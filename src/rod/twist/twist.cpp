@@ -112,8 +112,10 @@ void QuasiStaticTwist::turn(const Discretisation& rod, const TwistBoundary& boun
  *  has followed the edges without them. */
 void QuasiStaticTwist::followFrames(const Discretisation& rod, const TwistBoundary& boundary, State& state)
 {
-  bishop_before_ = bishop_;
-  bishop_normal_before_ = bishop_normal_;
+  bishop_before_.swap(bishop_);
+  bishop_normal_before_.swap(bishop_normal_);
+  bishop_.resize(bishop_before_.size());
+  bishop_normal_.resize(bishop_before_.size());
   transportBishopFrame(rod, boundary, state);
   for (int j = std::max(first_curved_ - 1, first_edge_); j + 1 < rod.nodes(); ++j)
     state.twist_angle[j] -= frameTurn(bishop_before_[j], bishop_normal_before_[j], bishop_[j], bishop_normal_[j]);
