@@ -1,5 +1,7 @@
 #include "errors.h"
 
+#include <utility>
+
 #include "common/error.h"
 
 namespace endovascular_sim::python
@@ -26,7 +28,7 @@ void translate(std::exception_ptr thrown)
 {
   try
   {
-    std::rethrow_exception(thrown);
+    std::rethrow_exception(std::move(thrown));
   }
   catch (const InputError& error)
   {
