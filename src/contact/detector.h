@@ -7,11 +7,11 @@
 
 #include <Eigen/Core>
 
-#include "contact/broad_phase/neighbour_list.h"
+#include "contact/broad_phase/wire_lists.h"
 #include "contact/contract/contact_set.h"
-#include "contact/narrow_phase/smooth_foot.h"
 #include "contact/wall/wall.h"
 #include "contact/wall/wall_law.h"
+#include "contact/wall_features.h"
 #include "contact/wall_model.h"
 
 namespace endovascular_sim::contact
@@ -22,8 +22,8 @@ namespace endovascular_sim::contact
  *
  *  Node contacts are the closest points on the triangles around a node that are local minima, one per normal. Edge
  *  contacts are the reflex edges and vertices of the mesh that an edge of the wire crosses. Broad phase: a neighbour
- *  list per node. Narrow phase: exact tests of the listed features. Results do not depend on earlier queries: a new
- *  detector gives the same bits. */
+ *  list per node (WireLists). Narrow phase: exact tests of the listed features (WallFeatures). Results do not depend on
+ * earlier queries: a new detector gives the same bits. */
 class Detector : public ContactSource
 {
 public:
@@ -49,9 +49,6 @@ public:
   /** Copies a model that is shared, which the first movement does otherwise. */
   void ownModel() { WallModel::writable(model_); }
 
-  /** Number of neighbour lists that the last query has built. */
-  std::size_t builtLists() const { return built_lists_; }
-
   /** Signed distance from a point to the wall, see WallModel::signedDistance [m]. */
   double signedDistance(const Eigen::Vector3d& point, int hint = -1, int* nearest = nullptr) const
   {
@@ -67,42 +64,16 @@ public:
   const std::shared_ptr<const WallModel>& model() const { return model_; }
 
 private:
-  /** Lists are indexed from the tip: nodes that enter or leave at the proximal end change no other node's list. */
-  NeighbourList& listOf(const Query& query, std::size_t node) { return lists_[query.nodes.size() - 1 - node]; }
-  void reserveLists(std::size_t nodes);
   void begin(const Query& query, ContactSet& set);
-  void renewDueLists(const Query& query);
-  void detectNode(const Query& query, std::size_t node, std::vector<Feature>& features);
-  void detectEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
-  void detectSmoothNode(const Query& query, std::size_t node, std::vector<Feature>& features);
-  void findFeet(const Query& query, std::size_t node);
-  void detectSmoothEdge(const Query& query, std::size_t node, std::vector<Feature>& features);
-  void addSmoothMinimum(const Query& query, std::size_t node, double parameter, const SmoothFoot& foot,
-                        std::size_t first, std::vector<Feature>& features);
-  /** Distance from the axis up to which features of a node are needed [m]. */
-  static double cutoffAt(const Query& query, std::size_t node) { return query.radius[node] + query.margin[node]; }
-  double reachAt(const Query& query, std::size_t node) const;
-  double listCutoff(const Query& query, std::size_t node) const;
-  void addLaw(const Query& query, std::vector<Feature>& features) const;
-  double distanceToListed(const NeighbourList& list, const Eigen::Vector3d& point, double cutoff) const;
+  void applyLaw(std::vector<Feature>& features) const;
   double wallDistance(const Query& query, std::size_t node, double farthest);
 
   std::shared_ptr<const WallModel> model_;
   WallLaw law_;
   std::uint64_t vessel_version_;
-  std::vector<NeighbourList> lists_;  ///< per node, from the tip
-  std::vector<int> nearest_;          ///< per node of the whole wire: nearest triangle of its last search, or −1
-  NeighbourList::Scratch scratch_;
-  std::size_t built_lists_ = 0;                      ///< in the last query
-  std::vector<std::pair<double, std::size_t>> due_;  ///< remaining queries and node of the lists that expire soon
-  double deviation_ = 0.0;                           ///< WallModel::deviation() [m]
-  std::vector<SmoothFoot>
-      nearest_feet_;              ///< smooth wall, per node: nearest foot within the cutoff; triangle −1 without
-  std::vector<SmoothFoot> feet_;  ///< smooth wall: feet of the present node
+  std::unique_ptr<WallFeatures> features_;  ///< of the wall's shape
+  WireLists lists_;
+  std::vector<int> nearest_;  ///< per node of the whole wire: nearest triangle of its last search, or −1
 };
-
-/** Appends a feature unless one of the node's features has the same normal; of two equal ones the closer remains.
- *  @param first index of the node's first feature */
-void appendDistinct(std::vector<Feature>& features, std::size_t first, const Feature& feature);
 
 }  // namespace endovascular_sim::contact
