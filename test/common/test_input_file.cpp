@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "common/output_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim
 {
@@ -27,20 +27,6 @@ protected:
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  template <typename Call>
-  std::string messageOf(Call&& call)
-  {
-    try
-    {
-      call();
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-    return "";
-  }
-
   std::filesystem::path folder_;
 };
 
@@ -54,9 +40,9 @@ TEST_F(FilesInAFolder, AreOpenedForReading)
 TEST_F(FilesInAFolder, AreReportedWithReasonAndRemedyIfMissingOrAFolder)
 {
   const std::string missing = (folder_ / "missing").string();
-  EXPECT_EQ(messageOf([&] { openInputFile(missing, "give a state"); }),
+  EXPECT_EQ(inputErrorOf([&] { openInputFile(missing, "give a state"); }),
             missing + ": cannot be read (No such file or directory); give a state");
-  EXPECT_EQ(messageOf([&] { openInputFile(folder_.string(), "give a state"); }),
+  EXPECT_EQ(inputErrorOf([&] { openInputFile(folder_.string(), "give a state"); }),
             folder_.string() + ": cannot be read (Is a directory); give a state");
 }
 
@@ -66,9 +52,9 @@ TEST_F(FilesInAFolder, PreventAFolderOfTheSameName)
   createFolder((folder_ / "new" / "folder").string());
   EXPECT_TRUE(std::filesystem::is_directory(folder_ / "new" / "folder"));
   const std::string file = (folder_ / "file").string();
-  EXPECT_EQ(messageOf([&] { createFolder(file); }),
+  EXPECT_EQ(inputErrorOf([&] { createFolder(file); }),
             file + ": the folder cannot be created (Not a directory); choose an existing folder");
-  EXPECT_NE(messageOf([&] { createFolder(file + "/below"); }), "");
+  EXPECT_NE(inputErrorOf([&] { createFolder(file + "/below"); }), "");
 }
 
 }  // namespace

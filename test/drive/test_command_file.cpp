@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::drive
 {
@@ -29,15 +30,7 @@ protected:
   /** Message of the error for a text. */
   std::string refusal(const std::string& text) const
   {
-    try
-    {
-      read(text);
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-    return "accepted";
+    return inputErrorOf([&] { read(text); });
   }
 
   std::string path_;

@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "common/error.h"
 #include "image/slice_stack.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::image
 {
@@ -41,15 +41,7 @@ std::string rejectionAfter(const std::function<void(std::vector<Slice>&)>& chang
 {
   std::vector<Slice> slices = obliqueSlices();
   change(slices);
-  try
-  {
-    stackSlices(slices, "folder");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { stackSlices(slices, "folder"); });
 }
 
 TEST(SliceStack, OrdersSlicesAlongTheirNormal)

@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "image/volume_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::image
 {
@@ -39,15 +40,7 @@ protected:
   std::string rejectionOf(const std::string& content) const
   {
     std::ofstream(file_, std::ios::binary) << content;
-    try
-    {
-      readVolume(file_);
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-    return "";
+    return inputErrorOf([&] { readVolume(file_); });
   }
 
   std::string content() const

@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
-#include "common/error.h"
 #include "image/volume_grid.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::image
 {
@@ -28,15 +28,7 @@ VolumeGrid obliqueGrid()
 /** Message of the rejection of a grid; empty without one. */
 std::string rejectionOf(const VolumeGrid& grid)
 {
-  try
-  {
-    requireValid(grid, "head.mha");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { requireValid(grid, "head.mha"); });
 }
 
 TEST(VolumeGrid, PositionsFollowTheAxes)

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "test/common/input_error_of.h"
 #include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::procedure
@@ -58,15 +58,8 @@ TEST(Perturbation, EndsAProcedureAfterAPhase)
   EXPECT_EQ(endingWith(sceneWith(kSteps), "In").procedure->steps.size(), 2U)
       << "steps without a phase belong to the previous phase";
   EXPECT_EQ(endingWith(sceneWith(kSteps), "Out").procedure->steps.size(), 3U);
-  try
-  {
-    endingWith(sceneWith(kSteps), "Through");
-    FAIL() << "accepted";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_STREQ(error.what(), "test scene: procedure: has no phase 'Through'; known: In, Out");
-  }
+  const std::string message = inputErrorOf([&] { endingWith(sceneWith(kSteps), "Through"); });
+  EXPECT_EQ(message, "test scene: procedure: has no phase 'Through'; known: In, Out");
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 #include <Eigen/Geometry>
 
-#include "common/error.h"
 #include "instrument/rest_shape.h"
 #include "rod/model/discretisation.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -274,34 +274,19 @@ class InstrumentRefusal : public ::testing::TestWithParam<Refusal>
 TEST_P(InstrumentRefusal, ReportsFileKeyAndRemedy)
 {
   const Refusal& expected = GetParam();
-  try
-  {
-    load(expected.instrument, {expected.change});
-    FAIL() << "accepted " << expected.change;
-  }
-  catch (const InputError& error)
-  {
-    const std::string message = error.what();
-    EXPECT_NE(message.find(expected.instrument + ".yaml: "), std::string::npos) << message;
-    EXPECT_NE(message.find(expected.location), std::string::npos) << message;
-    EXPECT_NE(message.find(expected.remedy), std::string::npos) << message;
-  }
+  const std::string message = inputErrorOf([&] { load(expected.instrument, {expected.change}); });
+  EXPECT_NE(message.find(expected.instrument + ".yaml: "), std::string::npos) << message;
+  EXPECT_NE(message.find(expected.location), std::string::npos) << message;
+  EXPECT_NE(message.find(expected.remedy), std::string::npos) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, InstrumentRefusal, ::testing::ValuesIn(kRefusals));
 
 void expectSceneRefusal(const std::string& change, const std::string& location, const std::string& remedy)
 {
-  try
-  {
-    loadScene(kBench, {change});
-    FAIL() << "accepted " << change;
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find(location), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find(remedy), std::string::npos) << error.what();
-  }
+  const std::string message = inputErrorOf([&] { loadScene(kBench, {change}); });
+  EXPECT_NE(message.find(location), std::string::npos) << message;
+  EXPECT_NE(message.find(remedy), std::string::npos) << message;
 }
 
 TEST(InstrumentLibrary, ScenesRejectUnknownNamesTwoNamesAndSeparateStents)

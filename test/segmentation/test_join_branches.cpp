@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "segmentation/lumen/lumen_fit.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -100,17 +100,12 @@ TEST(JoinBranches, ABranchOfAForkJoinsTheTrunkRatherThanItsNearerSister)
 TEST(JoinBranches, ABranchWithoutALumenBetweenItAndItsParentIsRefused)
 {
   const std::vector<Piece> pieces = {{{15, 17, 88}, {15, 17, 8}, 5.0}, {{40, 17, 88}, {40, 17, 8}, 3.0}};
-  try
-  {
-    joined(pieces, clicksAt({{"trunk", {{15, 17, 84}, {15, 17, 12}}}, {"apart", {{40, 17, 60}, {40, 17, 12}}}}));
-    FAIL() << "a separate vessel was joined";
-  }
-  catch (const InputError& error)
-  {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("apart"), std::string::npos) << text;
-    EXPECT_NE(text.find("leaves the contrast at"), std::string::npos) << text;
-  }
+  const std::string text = inputErrorOf(
+      [&] {
+        joined(pieces, clicksAt({{"trunk", {{15, 17, 84}, {15, 17, 12}}}, {"apart", {{40, 17, 60}, {40, 17, 12}}}}));
+      });
+  EXPECT_NE(text.find("apart"), std::string::npos) << text;
+  EXPECT_NE(text.find("leaves the contrast at"), std::string::npos) << text;
 }
 
 TEST(JoinBranches, APathOfSeveralTimesTheDistanceOfItsClicksIsReported)

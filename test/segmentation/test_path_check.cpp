@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -36,15 +36,7 @@ std::string errorOf(const std::vector<Eigen::Vector3d>& corners, bool is_alone =
   branch.name = "LAD";
   for (const std::size_t k : path.clicks)
     branch.clicks.push_back({path.points[k], 350.0, 5e-3});
-  try
-  {
-    requireCourse(path, branch, is_alone, "clicks.yaml");
-    return "";
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+  return inputErrorOf([&] { requireCourse(path, branch, is_alone, "clicks.yaml"); });
 }
 
 TEST(PathCheck, RefusesClicksThatAreNearerThanTheLumenIsWide)

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "segmentation/surface/lumen_surface.h"
+#include "test/common/input_error_of.h"
 #include "test/segmentation/accuracy.h"
 #include "test/segmentation/tree_accuracy.h"
 
@@ -26,15 +26,7 @@ int seeds()
 
 std::string errorOf(const Scan& scan, const ClickSet& clicks)
 {
-  try
-  {
-    segmentBranches(scan, clicks, edgeSettings(scan.modality(), scan.spacing()), 1);
-    return "";
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+  return inputErrorOf([&] { segmentBranches(scan, clicks, edgeSettings(scan.modality(), scan.spacing()), 1); });
 }
 
 /** Proximal left anterior descending artery with its lesion, and its surroundings. */

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::simulation
 {
@@ -73,15 +73,8 @@ TEST(IntroducerValve, GivesTheSameForceAtEveryTimeStep)
 
 TEST(IntroducerValve, NeedsAnIntroducer)
 {
-  try
-  {
-    scene::parseScene(kWire, "test", {"entry.valve_friction=0.1"});
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("entry.valve_friction"), std::string::npos) << error.what();
-  }
+  const std::string message = inputErrorOf([&] { scene::parseScene(kWire, "test", {"entry.valve_friction=0.1"}); });
+  EXPECT_NE(message.find("entry.valve_friction"), std::string::npos) << message;
 }
 
 }  // namespace endovascular_sim::simulation

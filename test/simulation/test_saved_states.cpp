@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"
+#include "test/common/input_error_of.h"
 #include "test/fuzz/fuzz_simulation.h"
 #include "test/simulation/treatment_bench.h"
 
@@ -127,16 +127,12 @@ TEST(SavedStates, LoadOverASimulationWithoutSampling)
 
 std::string refusalOf(TreatmentBench& bench, const std::string& state, std::uint64_t vessel_hash = 7)
 {
-  try
-  {
-    std::istringstream stream(state);
-    bench.simulation.load(stream, vessel_hash, "a.state");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf(
+      [&]
+      {
+        std::istringstream stream(state);
+        bench.simulation.load(stream, vessel_hash, "a.state");
+      });
 }
 
 TEST(SavedStates, ThatAreDamagedOrOfAnotherSceneAreRefused)

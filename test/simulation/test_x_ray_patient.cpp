@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "image/volume_file.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::simulation
 {
@@ -70,15 +70,8 @@ TEST(XRayPatient, OfADamagedFileIsRefusedByName)
   const std::string file = testing::TempDir() + "x_ray_patient_damaged.vol";
   std::ofstream(file) << "no volume";
   const scene::Scene scene = tubeWith("{ct: " + file + "}");
-  try
-  {
-    loadPatient(scene, vesselOf(scene), kStillResolution);
-    FAIL() << "accepted";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("x_ray_patient_damaged.vol"), std::string::npos) << error.what();
-  }
+  const std::string message = inputErrorOf([&] { loadPatient(scene, vesselOf(scene), kStillResolution); });
+  EXPECT_NE(message.find("x_ray_patient_damaged.vol"), std::string::npos) << message;
 }
 
 TEST(XRayPatient, IsRefinedWithinNineTenthsOfASecondAtEveryFrameRate)

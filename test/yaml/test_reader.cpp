@@ -1,8 +1,8 @@
+#include "test/common/input_error_of.h"
 #include "yaml/reader.h"
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "common/quantities.h"
 
 namespace endovascular_sim::yaml
@@ -13,28 +13,24 @@ namespace
 /** Message of the error of reading a list of named vessels of one length each; empty for a valid text. */
 std::string messageOf(const std::string& text, ItemLabel label, ReadingReport& report)
 {
-  try
-  {
-    const Node root = parseTree(text, "f.yaml");
-    Reader reader(root, &report, label);
-    reader.list(
-        "vessels", 0, [](std::size_t) {},
-        [](Fields& vessel, std::size_t)
-        {
-          std::string name;
-          double length = 0.0;
-          vessel.text("name", name);
-          vessel.number("length", length, quantities::kNumber, Range::positive());
-          vessel.judge("length", quantities::kVesselLength, 1e-3 * length);
-        },
-        Need::kRequired);
-    reader.finish();
-    return "";
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+  return inputErrorOf(
+      [&]
+      {
+        const Node root = parseTree(text, "f.yaml");
+        Reader reader(root, &report, label);
+        reader.list(
+            "vessels", 0, [](std::size_t) {},
+            [](Fields& vessel, std::size_t)
+            {
+              std::string name;
+              double length = 0.0;
+              vessel.text("name", name);
+              vessel.number("length", length, quantities::kNumber, Range::positive());
+              vessel.judge("length", quantities::kVesselLength, 1e-3 * length);
+            },
+            Need::kRequired);
+        reader.finish();
+      });
 }
 
 TEST(YamlReader, LabelsItemsOfListsByIndexOrByName)

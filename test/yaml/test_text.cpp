@@ -1,8 +1,7 @@
+#include "test/common/input_error_of.h"
 #include "yaml/text.h"
 
 #include <gtest/gtest.h>
-
-#include "common/error.h"
 
 namespace endovascular_sim::yaml
 {
@@ -11,15 +10,7 @@ namespace
 
 std::string refusalOf(const std::string& text)
 {
-  try
-  {
-    parseYamlText(text, "f.yaml");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { parseYamlText(text, "f.yaml"); });
 }
 
 TEST(YamlText, RefusesAliasesThatExpandWithoutLimit)

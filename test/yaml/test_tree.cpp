@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "yaml/tree.h"
 
 #include <gtest/gtest.h>
@@ -44,17 +45,8 @@ TEST(YamlTree, RefusesAKeyThatIsGivenTwiceAmongMany)
   for (int k = 0; k < 20000; ++k)
     text += "k" + std::to_string(k) + ": 1\n";
   EXPECT_NO_THROW(parseTree(text, "scene.yaml"));
-  try
-  {
-    parseTree(text + "k7: 2\n", "scene.yaml");
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("k7 (line 20001): duplicate key, given first in line 8"),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string message = inputErrorOf([&] { parseTree(text + "k7: 2\n", "scene.yaml"); });
+  EXPECT_NE(message.find("k7 (line 20001): duplicate key, given first in line 8"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim
 {
@@ -11,15 +11,7 @@ namespace
 
 std::string refusalOf(const std::string& text)
 {
-  try
-  {
-    requireShallowXml(text, "f.xml");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { requireShallowXml(text, "f.xml"); });
 }
 
 std::string repeated(const std::string& text, int times)

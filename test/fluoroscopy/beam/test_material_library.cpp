@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -78,15 +79,7 @@ std::string messageOf(const std::string& text)
 {
   const std::string file = testing::TempDir() + "materials.yaml";
   std::ofstream(file) << text;
-  try
-  {
-    MaterialLibrary::load(file);
-    return "";
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+  return inputErrorOf([&] { MaterialLibrary::load(file); });
 }
 
 TEST(MaterialLibrary, RejectsInvalidFilesByKey)

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/error.h"
 #include "haptics/serial/pty.h"
+#include "test/common/input_error_of.h"
 #include "test/haptics/host_fixture.h"
 
 namespace endovascular_sim::haptics
@@ -220,15 +220,8 @@ TEST(SerialPort, RejectsASpeedThatNoLineHas)
 {
   LinkOptions options;
   options.baud = 96;
-  try
-  {
-    HapticLink link(options);
-    FAIL() << "accepted";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("between 1200 and"), std::string::npos) << error.what();
-  }
+  const std::string message = inputErrorOf([&] { HapticLink link(options); });
+  EXPECT_NE(message.find("between 1200 and"), std::string::npos) << message;
   EXPECT_NO_THROW(SerialPort::checkBaud(2000000, "baud"));
 }
 

@@ -9,11 +9,11 @@
 #include <rosbag/bag.h>
 #include <topic_tools/shape_shifter.h>
 
-#include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SimulationRun.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::nodes
 {
@@ -73,15 +73,7 @@ protected:
 
   std::string refusal() const
   {
-    try
-    {
-      readSessionBag(file_);
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-    return "";
+    return inputErrorOf([&] { readSessionBag(file_); });
   }
 
   std::string file_;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::robot
 {
@@ -36,15 +37,7 @@ const std::string kWheel = "<link name=\"wheel\"/>\n";
 
 std::string refusalOf(const std::string& urdf)
 {
-  try
-  {
-    parseUrdf(urdf, "r.urdf");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { parseUrdf(urdf, "r.urdf"); });
 }
 
 struct Refusal

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -61,16 +61,11 @@ TEST(FluoroscopySchema, WrongPatientsAreRefusedByKeyAndRemedy)
        "conflicts with patient"},
       {sceneText("{patient: {body: true}}", ""), "fluoroscopy.patient.body", "placed about a vessel"}};
   for (const Refusal& refusal : refusals)
-    try
-    {
-      parseScene(refusal.text, "s.yaml");
-      ADD_FAILURE() << "accepted: " << refusal.text;
-    }
-    catch (const InputError& error)
-    {
-      EXPECT_NE(std::string(error.what()).find(refusal.key), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(refusal.remedy), std::string::npos) << error.what();
-    }
+  {
+    const std::string message = inputErrorOf([&] { parseScene(refusal.text, "s.yaml"); });
+    EXPECT_NE(message.find(refusal.key), std::string::npos) << refusal.text << ": " << message;
+    EXPECT_NE(message.find(refusal.remedy), std::string::npos) << refusal.text << ": " << message;
+  }
 }
 
 }  // namespace

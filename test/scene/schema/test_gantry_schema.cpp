@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "common/error.h"
 #include "common/units.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -21,15 +21,7 @@ Scene sceneOf(const std::string& fluoroscopy)
 
 std::string refusalOf(const std::string& fluoroscopy)
 {
-  try
-  {
-    sceneOf(fluoroscopy);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "accepted";
+  return inputErrorOf([&] { sceneOf(fluoroscopy); });
 }
 
 void expectRefusal(const std::string& fluoroscopy, std::initializer_list<const char*> parts)

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -22,15 +22,7 @@ Scene sceneOf(const std::string& step)
 
 std::string refusalOf(const std::string& step)
 {
-  try
-  {
-    sceneOf(step);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "accepted";
+  return inputErrorOf([&] { sceneOf(step); });
 }
 
 TEST(SceneProcedure, ReadsItsSteps)
@@ -112,17 +104,10 @@ TEST(SceneProcedure, ReportsErrorsWithFileKeyAndRemedy)
 
 TEST(SceneProcedure, IsRequiredByADriveWithSourceProcedure)
 {
-  try
-  {
-    parseScene(kScene, "scene.yaml");
-    FAIL() << "accepted";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_STREQ(error.what(),
-                 "scene.yaml: instruments.0.drive.source (line 3): is procedure, but the scene has no procedure; give "
-                 "procedure: FILE, or another source");
-  }
+  const std::string message = inputErrorOf([&] { parseScene(kScene, "scene.yaml"); });
+  EXPECT_EQ(message,
+            "scene.yaml: instruments.0.drive.source (line 3): is procedure, but the scene has no procedure; give "
+            "procedure: FILE, or another source");
 }
 
 TEST(SceneProcedure, OfALessonHasHintsAndPassMarksAndAPersonWhoDrives)
@@ -147,15 +132,8 @@ TEST(SceneProcedure, OfALessonHasHintsAndPassMarksAndAPersonWhoDrives)
 TEST(SceneProcedure, OfALessonRefusesInstrumentsThatNoPersonDrives)
 {
   const std::string lesson = PROJECT_DIR "/config/scenes/lesson_bifurcation.yaml";
-  try
-  {
-    loadScene(lesson, {"drive.source=procedure"});
-    FAIL() << "accepted";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("'wire' is not driven by a person"), std::string::npos) << error.what();
-  }
+  const std::string message = inputErrorOf([&] { loadScene(lesson, {"drive.source=procedure"}); });
+  EXPECT_NE(message.find("'wire' is not driven by a person"), std::string::npos) << message;
   EXPECT_FALSE(loadScene(lesson, {"drive.source=procedure", "procedure.guided=false"}).procedure->guided);
 }
 

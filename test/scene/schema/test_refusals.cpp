@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <set>
 
-#include "common/error.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -125,15 +125,7 @@ const std::vector<Refusal> kRefusals = {
 
 std::string refusalOf(const std::string& file, const std::vector<std::string>& overrides = {})
 {
-  try
-  {
-    loadScene(file, overrides);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { loadScene(file, overrides); });
 }
 
 bool contains(const std::string& text, const std::string& part)

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -29,15 +29,7 @@ Scene sceneWith(const std::string& joints, const std::string& drive = "source: t
 
 std::string refusalOf(const std::string& text)
 {
-  try
-  {
-    parseScene(text, "s.yaml");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { parseScene(text, "s.yaml"); });
 }
 
 TEST(RobotSchema, ARobotBringsItsNodeAndItsLimits)

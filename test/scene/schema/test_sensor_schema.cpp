@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "scene/scene_file.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::scene
 {
@@ -34,15 +34,7 @@ std::string faults(const std::string& list)
 
 std::string refusalOf(const std::string& text)
 {
-  try
-  {
-    parseScene(text, "s.yaml");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { parseScene(text, "s.yaml"); });
 }
 
 struct Refusal

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -27,15 +28,7 @@ protected:
 
   std::string errorOf(const std::string& name, const std::string& text)
   {
-    try
-    {
-      readClicks(file(name, text));
-      return "";
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
+    return inputErrorOf([&] { readClicks(file(name, text)); });
   }
 
 private:

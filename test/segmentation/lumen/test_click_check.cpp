@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -56,15 +56,7 @@ std::string errorAt(const Eigen::Vector3d& first)
 {
   const Scan scan(scanOfTwoVessels());
   std::vector<std::string> warnings;
-  try
-  {
-    checkClicks(scan, clicksAt(first), warnings);
-    return "";
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+  return inputErrorOf([&] { checkClicks(scan, clicksAt(first), warnings); });
 }
 
 /** Distance of the proposed place from the axis of the first vessel [mm]; NaN without a proposal. */

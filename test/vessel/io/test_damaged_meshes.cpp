@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
 #include "test/common/random_damage.h"
 #include "test/vessel/io/mesh_files.h"
 #include "vessel/io/mesh_reader.h"
@@ -102,15 +103,7 @@ std::string errorOf(const std::string& content, const std::string& extension)
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("mesh_" + std::to_string(::getpid()) + extension);
   std::ofstream(file, std::ios::binary) << content;
-  try
-  {
-    readMesh(file.string(), 1.0);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { readMesh(file.string(), 1.0); });
 }
 
 constexpr auto kPlyHeader =

@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/io/mesh_reader.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/error.h"
 #include "test/vessel/io/mesh_files.h"
 #include "vessel/repair/mesh_check.h"
 
@@ -20,15 +20,7 @@ const std::string kMeshes = std::string(TEST_DATA_DIR) + "/meshes/";
 
 std::string errorMessage(const std::string& file, double unit = 1e-3)
 {
-  try
-  {
-    readMesh(file, unit);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { readMesh(file, unit); });
 }
 
 class EveryFormat : public testing::TestWithParam<const char*>

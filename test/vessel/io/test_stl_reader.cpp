@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/io/stl_reader.h"
 
 #include <gtest/gtest.h>
@@ -5,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "common/error.h"
 #include "test/vessel/io/mesh_files.h"
 
 namespace endovascular_sim::vessel
@@ -26,15 +26,7 @@ std::pair<geometry::TriangleMesh, MeshRemarks> read(const std::string& bytes)
 
 std::string refusalOf(const std::string& bytes)
 {
-  try
-  {
-    read(bytes);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { read(bytes); });
 }
 
 TEST(StlReader, ReadsABinaryFileWithSurplusBytesAndWarns)

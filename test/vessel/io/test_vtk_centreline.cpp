@@ -1,8 +1,8 @@
+#include "test/common/input_error_of.h"
 #include "vessel/io/vtk_centreline.h"
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "test/vessel/io/vtk_files.h"
 #include "test/vessel/repair/swept_meshes.h"
 
@@ -123,15 +123,7 @@ TEST(VtkCentreline, IsTurnedFromRas)
 
 std::string refusalOf(const VtkPolyData& data)
 {
-  try
-  {
-    treeOf(data);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { treeOf(data); });
 }
 
 TEST(VtkCentreline, RefusesLinesThatDoNotMeetAndFilesWithoutLines)

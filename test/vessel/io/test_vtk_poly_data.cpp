@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/io/vtk_poly_data.h"
 
 #include <gtest/gtest.h>
@@ -24,17 +25,13 @@ std::pair<geometry::TriangleMesh, MeshRemarks> surfaceOf(const VtkContent& conte
 
 std::string refusalOf(const std::string& bytes, const std::string& name)
 {
-  try
-  {
-    MeshBuilder builder(name, 1e-3);
-    addSurface(readVtkPolyData(bytes, name), builder);
-    builder.build();
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf(
+      [&]
+      {
+        MeshBuilder builder(name, 1e-3);
+        addSurface(readVtkPolyData(bytes, name), builder);
+        builder.build();
+      });
 }
 
 class EveryVtkStorage : public testing::TestWithParam<VtkStorage>

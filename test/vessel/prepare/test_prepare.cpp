@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/prepare/prepare.h"
 
 #include <gtest/gtest.h>
@@ -258,15 +259,8 @@ TEST(Prepare, RejectsAnOpenCavityAndAPlugWithoutWalls)
   for (const std::vector<Plug>& plugs : {std::vector<Plug>{}, {kPipePlugs[0]}})
   {
     options.plugs = plugs;
-    try
-    {
-      prepare(pipe(), options);
-      ADD_FAILURE();
-    }
-    catch (const InputError& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("close every opening with a --plug"), std::string::npos) << error.what();
-    }
+    const std::string message = inputErrorOf([&] { prepare(pipe(), options); });
+    EXPECT_NE(message.find("close every opening with a --plug"), std::string::npos) << message;
   }
   options.plugs = {{{0, 0, 0.008}, 1.5e-3}};
   EXPECT_THROW(prepare(pipe(), options), InputError);
@@ -298,17 +292,9 @@ TEST(Prepare, RejectsAnUnknownEndAndListsTheKnownOnes)
 {
   PrepareOptions options;
   options.open = {"aorta"};
-  try
-  {
-    prepare(kTrunk.mesh(48, 10), options);
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("--open aorta"), std::string::npos) << text;
-    EXPECT_NE(text.find("branch_0 near ("), std::string::npos) << text;
-  }
+  const std::string text = inputErrorOf([&] { prepare(kTrunk.mesh(48, 10), options); });
+  EXPECT_NE(text.find("--open aorta"), std::string::npos) << text;
+  EXPECT_NE(text.find("branch_0 near ("), std::string::npos) << text;
 }
 
 TEST(Prepare, RejectsAnOpenSurfaceAndInvalidOptions)

@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/repair/lumen_check.h"
 
 #include <gtest/gtest.h>
@@ -5,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/error.h"
 #include "test/vessel/repair/swept_meshes.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/io/mesh_reader.h"
@@ -25,15 +25,7 @@ ThickWall thickWallIn(const geometry::TriangleMesh& mesh)
 
 std::string refusalOf(const geometry::TriangleMesh& mesh)
 {
-  try
-  {
-    requireLumen(repairMesh(mesh, "vessel.stl").mesh, 1e-3, "vessel.stl");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { requireLumen(repairMesh(mesh, "vessel.stl").mesh, 1e-3, "vessel.stl"); });
 }
 
 TEST(LumenCheck, RefusesAWallWithAThicknessAndNamesTheRemedy)

@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/repair/mesh_repair.h"
 
 #include <gtest/gtest.h>
@@ -24,15 +25,7 @@ geometry::TriangleMesh load(const std::string& name)
 
 std::string errorMessage(const geometry::TriangleMesh& mesh)
 {
-  try
-  {
-    repairMesh(mesh, "vessel.obj");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { repairMesh(mesh, "vessel.obj"); });
 }
 
 struct Defect

@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/repair/mesh_size.h"
 
 #include <gtest/gtest.h>
@@ -15,15 +16,7 @@ std::string refusalOf(double written, double read)
 {
   const double scale = read / written;
   const geometry::TriangleMesh mesh = sweep(straightLine(0.16 * scale), circle(4e-3 * scale));
-  try
-  {
-    requirePlausibleSize(mesh, checkMesh(mesh), read, "tube.stl");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { requirePlausibleSize(mesh, checkMesh(mesh), read, "tube.stl"); });
 }
 
 TEST(MeshSize, ProposesTheUnitThatGivesAUsualLumen)

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::nodes
 {
@@ -29,21 +29,6 @@ std::string textOf(const fs::path& file)
 {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-/** Message of the refusal of a call; empty without one. */
-template <typename Call>
-std::string refusal(const Call& call)
-{
-  try
-  {
-    call();
-    return "";
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
 }
 
 class StateFileTest : public testing::Test
@@ -72,17 +57,17 @@ TEST_F(StateFileTest, DoesNotReplaceAFileThatIsNoState)
 {
   const fs::path file = folder_ / "thesis.tex";
   write(file, "years of work");
-  EXPECT_NE(refusal([&] { writeStateFile(file, kState); }).find("is no saved state"), std::string::npos);
+  EXPECT_NE(inputErrorOf([&] { writeStateFile(file, kState); }).find("is no saved state"), std::string::npos);
   EXPECT_EQ(textOf(file), "years of work");
   write(file, "");
-  EXPECT_NE(refusal([&] { writeStateFile(file, kState); }), "") << "an empty file";
+  EXPECT_NE(inputErrorOf([&] { writeStateFile(file, kState); }), "") << "an empty file";
 }
 
 TEST_F(StateFileTest, DoesNotFollowALinkAtItsName)
 {
   write(folder_ / "target", kState);
   fs::create_symlink(folder_ / "target", folder_ / "link");
-  EXPECT_NE(refusal([&] { writeStateFile(folder_ / "link", kState + "!"); }), "");
+  EXPECT_NE(inputErrorOf([&] { writeStateFile(folder_ / "link", kState + "!"); }), "");
   EXPECT_EQ(textOf(folder_ / "target"), kState);
 }
 
@@ -97,13 +82,13 @@ TEST_F(StateFileTest, DoesNotWriteThroughALinkAtAForeseeableName)
 
 TEST_F(StateFileTest, IsNeitherADeviceNorAPipeNorAFolder)
 {
-  EXPECT_NE(refusal([] { writeStateFile("/dev/null", kState); }), "");
-  EXPECT_NE(refusal([&] { writeStateFile(folder_ / "states", kState); }), "");
+  EXPECT_NE(inputErrorOf([] { writeStateFile("/dev/null", kState); }), "");
+  EXPECT_NE(inputErrorOf([&] { writeStateFile(folder_ / "states", kState); }), "");
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-  EXPECT_NE(refusal([&] { writeStateFile(folder_ / "pipe", kState); }), "");
-  EXPECT_NE(refusal([&] { readStateFile(folder_ / "pipe"); }).find("is no file"), std::string::npos)
+  EXPECT_NE(inputErrorOf([&] { writeStateFile(folder_ / "pipe", kState); }), "");
+  EXPECT_NE(inputErrorOf([&] { readStateFile(folder_ / "pipe"); }).find("is no file"), std::string::npos)
       << "without a wait";
-  EXPECT_NE(refusal([] { readStateFile("/dev/zero"); }), "");
+  EXPECT_NE(inputErrorOf([] { readStateFile("/dev/zero"); }), "");
 }
 
 TEST_F(StateFileTest, OfAnotherKindOrSizeIsRefusedBeforeItIsRead)
@@ -111,11 +96,11 @@ TEST_F(StateFileTest, OfAnotherKindOrSizeIsRefusedBeforeItIsRead)
   const fs::path file = folder_ / "large";
   write(file, "no state");
   fs::resize_file(file, 10ULL << 30U);  // a hole: 10 GB
-  EXPECT_NE(refusal([&] { readStateFile(file); }).find("is not a saved state"), std::string::npos);
+  EXPECT_NE(inputErrorOf([&] { readStateFile(file); }).find("is not a saved state"), std::string::npos);
   fs::resize_file(file, 0);
   write(file, kState);
   fs::resize_file(file, 10ULL << 30U);
-  EXPECT_NE(refusal([&] { readStateFile(file); }).find("is larger than any"), std::string::npos);
+  EXPECT_NE(inputErrorOf([&] { readStateFile(file); }).find("is larger than any"), std::string::npos);
 }
 
 TEST_F(StateFileTest, LiesBelowTheFolderOfStates)
@@ -128,9 +113,10 @@ TEST_F(StateFileTest, LiesBelowTheFolderOfStates)
   fs::create_directory_symlink(folder_, folder_ / "states/out");
   for (const std::string outside : {"../b.state", "out/b.state", "/tmp/b.state"})
   {
-    EXPECT_NE(refusal([&] { writeStateFile(outside, kState, states); }).find("~state_folder"), std::string::npos)
+    EXPECT_NE(inputErrorOf([&] { writeStateFile(outside, kState, states); }).find("~state_folder"), std::string::npos)
         << outside;
-    EXPECT_NE(refusal([&] { readStateFile(outside, states); }).find("~state_folder"), std::string::npos) << outside;
+    EXPECT_NE(inputErrorOf([&] { readStateFile(outside, states); }).find("~state_folder"), std::string::npos)
+        << outside;
   }
 }
 
