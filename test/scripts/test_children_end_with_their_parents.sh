@@ -1,11 +1,8 @@
 #!/bin/bash
 # A tool that is killed leaves no process behind: neither the reader of volume_import, nor volume_import below vessel_segment.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+. "$(dirname "$0")/folder_of_a_test.sh"
 "$programs/volume_import" --help > /dev/null 2>&1 || { echo "without ITK: there is no child"; exit 0; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 /usr/bin/python3 - "$repository/test/image" <<'PYTHON'
 import sys

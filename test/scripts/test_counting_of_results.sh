@@ -1,10 +1,8 @@
 #!/bin/bash
 # The last line of the summary counts passed, failed and skipped tests; the exit code agrees with it.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 count="$repository/catkin_ws/lib/test_results.py"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 expect() {
   local wanted_status=$1 wanted_line=$2 status=0 output
   output=$(/usr/bin/python3 "$count" summary "$folder/results") || status=$?

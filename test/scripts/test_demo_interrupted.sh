@@ -2,9 +2,7 @@
 # Ctrl-C at any moment of a demo ends it with exit code 130 and leaves no process running. During a session it closes the
 # bag and writes the report.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 
 # Background processes of a shell ignore SIGINT, unlike the foreground of a terminal: it is restored here.
 /usr/bin/python3 - "$repository/catkin_ws/demo" "$folder" <<'PYTHON'

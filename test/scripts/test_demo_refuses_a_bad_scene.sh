@@ -1,9 +1,7 @@
 #!/bin/bash
 # A refused scene ends the demo at once, with the scene's message and without starting a graph.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 status=0
 message=$("$repository/catkin_ws/demo" --scene tube --headless --set vessel.stifness=3 --out "$folder/results" 2>&1) ||
   status=$?

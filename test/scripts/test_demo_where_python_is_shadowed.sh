@@ -1,9 +1,7 @@
 #!/bin/bash
 # A complete demo from another folder, with another python3 earlier in PATH, writes all results.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 mkdir "$folder/bin"
 printf '#!/bin/sh\necho "the wrong python3" >&2\nexit 99\n' > "$folder/bin/python3"
 chmod +x "$folder/bin/python3"

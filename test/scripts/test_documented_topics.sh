@@ -2,10 +2,8 @@
 # Topics and services of docs/ROS_INTERFACE.md, of src/nodes/runtime/ros_names.h and of running graphs are the same, and
 # `rostopic echo` reads a topic of every message type.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import glob, os, re, signal, socket, subprocess, sys, time

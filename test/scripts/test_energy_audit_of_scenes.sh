@@ -3,10 +3,7 @@
 # anatomy of the demo. Scenes that wait for commands are left out: they are at rest. So are those whose mesh is not in
 # ENDOVASCULAR_DATA_DIR.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 failed=0
 
 audit() {

@@ -2,10 +2,8 @@
 # The examples of src/tools/examples run: a stepped graph steers a wire into a branch and measures its calls, a graph in real
 # time pushes to a force.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import glob, os, re, signal, socket, subprocess, sys

@@ -2,12 +2,10 @@
 # An installation is complete and can be moved. The projects of test/install are built against it: all compute the
 # trajectories of `simulate`, and the plain CMake programs link no ROS library. The catkin project also builds in the devel space.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 build=${ENDOVASCULAR_BUILD_DIR:-$repository/catkin_ws/build}
 devel=${ENDOVASCULAR_DEVEL_DIR:-$repository/catkin_ws/devel}
 unset ENDOVASCULAR_CONFIG_DIR LD_LIBRARY_PATH
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 cmake --install "$build" --prefix "$folder/first" > "$folder/install.log"
 mv "$folder/first" "$folder/installed"

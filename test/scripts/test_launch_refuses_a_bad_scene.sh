@@ -1,10 +1,8 @@
 #!/bin/bash
 # A refused scene ends a launch before any node starts, and its message is printed once.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 export ROS_HOME=$folder ROS_LOG_DIR=$folder
 for launch in sim.launch robot.launch; do
   status=0

@@ -1,9 +1,7 @@
 #!/bin/bash
 # A path that catkin cannot handle is refused with the reason, before any installation or build.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 for name in 'my work' 'a;b' 'a$b' 'a"b' 'a:b' 'a%b' 'a(b' 'a#b'; do
   mkdir -p "$folder/$name/catkin_ws"
   cp -r "$repository/catkin_ws/demo" "$repository/catkin_ws/test" "$repository/catkin_ws/lib" \

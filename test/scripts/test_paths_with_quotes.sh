@@ -1,10 +1,7 @@
 #!/bin/bash
 # Programs pass paths to other programs literally: no shell executes a part of a path, and plots appear in such folders.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"
 for name in "q'; touch PWNED; echo '" "O'Brien"; do
   "$programs/simulate" "$repository/config/scenes/straight_wire.yaml" --seconds 0.5 --quiet --out "$name" > /dev/null

@@ -1,10 +1,7 @@
 #!/bin/bash
 # `plots vessel` draws the output of vessel_prepare; without that output it names the missing file.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=$repository/catkin_ws/devel/lib/endovascular_sim
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"
 # An open pipe of 5 mm radius and 40 mm length, in millimetres.
 awk 'BEGIN {

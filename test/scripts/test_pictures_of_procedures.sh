@@ -2,9 +2,7 @@
 # Phase pictures show wall, instruments and stent; forces.png has one curve per instrument; the moments for rviz have instruments
 # in the vessel.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 export PYTHONPATH=$repository/python REPOSITORY=$repository FOLDER=$folder PYTHONDONTWRITEBYTECODE=1
 /usr/bin/python3 - <<'PYTHON'
 import json

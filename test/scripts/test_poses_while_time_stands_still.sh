@@ -1,10 +1,8 @@
 #!/bin/bash
 # While simulated time stands still, as in a paused replay, no pose on /tf is published twice: listeners would warn of each.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import os, signal, socket, subprocess, sys, time

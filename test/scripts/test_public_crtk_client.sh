@@ -2,7 +2,7 @@
 # The public crtk_python_client is imported beside our crtk_msgs, and its examples run as they are. Its source is searched in
 # the folder CRTK_PYTHON_CLIENT (a clone of collaborative-robotics/crtk_python_client), else among the installed modules.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
 /usr/bin/python3 -c 'from crtk_msgs.srv import QueryForwardKinematics, QueryInverseKinematics, TriggerOperatingState'
 client=${CRTK_PYTHON_CLIENT:-}
@@ -13,8 +13,6 @@ if ! reason=$(ROS_VERSION=1 /usr/bin/python3 -c 'import crtk' 2>&1); then
 fi
 examples=${client:-/nonexistent}/scripts
 [ -d "$examples" ] || { echo "skipped: the examples of crtk_python_client are not there; set CRTK_PYTHON_CLIENT to a clone of it"; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 ROS_VERSION=1 /usr/bin/python3 - "$folder" "$repository" "$examples" <<'PYTHON'
 import os, signal, socket, subprocess, sys, threading, time

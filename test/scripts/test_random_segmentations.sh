@@ -2,9 +2,6 @@
 # 20 random synthetic CTs with good and wrong clicks: vessel_segment refuses with a message, or makes a vessel that `simulate` runs. 200 with
 # another seed and the table: RANDOM_SEGMENTATIONS=200 SEED=7 bash test/scripts/test_random_segmentations.sh
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+. "$(dirname "$0")/folder_of_a_test.sh"
 "$programs/volume_import" --help > /dev/null 2>&1 || { echo "without ITK: images are not read"; exit 0; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 /usr/bin/python3 "$repository/test/segmentation/random_segmentations.py" "$programs" "$folder" "${RANDOM_SEGMENTATIONS:-20}" "${SEED:-1}"

@@ -1,10 +1,8 @@
 #!/bin/bash
 # A baud rate of Arduino boards works, and one that no line has is refused once: the node is not started again and again.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import os, pty, signal, socket, subprocess, sys, time

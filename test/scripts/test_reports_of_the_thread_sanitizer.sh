@@ -2,10 +2,8 @@
 # A report of the thread sanitizer counts when this project makes all of its accesses. A program with a data race and one with
 # a cycle of locks are compiled in a folder that has the layout of the repository; a race within a library does not count.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 select=$repository/catkin_ws/lib/thread_reports.py
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/src" "$folder/library"
 
 cat > "$folder/src/race.cpp" <<'CPP'

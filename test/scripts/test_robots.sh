@@ -2,10 +2,8 @@
 # check_urdf accepts the URDFs of config/robots and of docs/YOUR_ROBOT.md, and scene_check the scene of that page; a wrong
 # URDF is refused with file, joint and remedy.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 for urdf in "$repository"/config/robots/*.urdf; do
   check_urdf "$urdf" | grep -q "Successfully Parsed XML" || { echo "check_urdf refused $urdf"; exit 1; }

@@ -1,11 +1,9 @@
 #!/bin/bash
 # A frozen rviz ends the motion that its panel commands, and neither a frozen nor a killed rviz affects simulation and recording.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 [ -e "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/lib/libendovascular_sim_rviz.so" ] || { echo "skipped: the plugin of rviz is not built"; exit 77; }
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 PYTHONPATH="$repository/test/scripts:$PYTHONPATH" /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import os, re, signal, subprocess, sys, time

@@ -2,10 +2,7 @@
 # The vessels of a synthetic MR angiogram (aortic bifurcation) and CT angiogram (coronary arteries) run the scene mesh: the mesh,
 # the mesh with its centreline and a lesion on a named branch, and the smooth vessel of the centreline file. No node leaves them, no surface is more than 0.1 mm beyond the wall.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"
 
 run() { # run NAME OPTION...: mesh.yaml with these options

@@ -2,11 +2,8 @@
 # Real images become vessels that run the scene mesh: no node leaves them, no surface is more than 0.1 mm beyond the wall.
 # aorta.mha (and aorta-surface.stl, the level set of VMTK) and CT_AVM.nii.gz are third-party data in ENDOVASCULAR_DATA_DIR.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
+. "$(dirname "$0")/folder_of_a_test.sh"
 data=${ENDOVASCULAR_DATA_DIR:-/nonexistent}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 tested=no
 

@@ -2,10 +2,7 @@
 # No scene of config/scenes gives a warning, with its vessel. Scenes whose mesh is not in ENDOVASCULAR_DATA_DIR are left out;
 # mesh.yaml has a tube for the user's mesh.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 /usr/bin/python3 - "$folder/tube.obj" <<'PYTHON'
 import math, sys
 around, along = 24, 40

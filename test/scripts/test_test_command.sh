@@ -1,9 +1,7 @@
 #!/bin/bash
 # catkin_ws/test counts failures, crashes and hanging tests of a gtest program, and refuses unknown folders and options.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 programs=$folder/catkin_ws/devel/lib/endovascular_sim
 mkdir -p "$programs" "$folder"/test/{good,crashing,hanging,scripts}
 

@@ -3,11 +3,9 @@
 # in ENDOVASCULAR_DATA_DIR are left out.
 #   --renew   writes the hashes of this build into the table, after an intended change of the physics
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 table=$repository/test/data/trajectory_hashes.txt
 simulate=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}/simulate
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 cd "$folder"  # no mesh of the current folder is used instead
 
 physics=$(sed -n 's/.*kPhysicsNumber = \([0-9]*\);.*/\1/p' "$repository/src/common/version.h")

@@ -1,11 +1,9 @@
 #!/bin/bash
 # Two sessions at once use different processors, and each reports its own.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 [ "$(nproc)" -ge 2 ] || { echo "skipped: this machine has one processor"; exit 77; }
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import json, os, re, signal, socket, subprocess, sys, time

@@ -2,14 +2,10 @@
 # One session, recorded by the graph and computed offline: every quantity that stands in more than one of its files and pages
 # has one value.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/folder_of_a_test.sh"
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 scene=$repository/test/data/scenes/good_procedure_errors.yaml
 marks=(procedure.pass.wall_force=0.1 procedure.pass.hand_force=0.01 procedure.pass.wrong_branches=0)
-programs=$repository/catkin_ws/devel/lib/endovascular_sim
-[ -z "${ENDOVASCULAR_PROGRAMS:-}" ] || programs=$ENDOVASCULAR_PROGRAMS
 
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])')
 export ROS_MASTER_URI=http://localhost:$port ROS_HOME=$folder/ros

@@ -2,10 +2,7 @@
 # vessel_segment makes the same mesh from the same grid in every image format, of three writers (own, ITK, pydicom), with any
 # number of threads, and for permuted, flipped and oblique axes.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"
 
 segment() { # segment IMAGES CLICKS OUT OPTION...

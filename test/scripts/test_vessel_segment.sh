@@ -2,10 +2,7 @@
 # vessel_segment makes a vessel for scenes and a centreline that is an anatomy. --open and --closed name ends by points, as
 # vessel_server prints them for a click in rviz. No output holds the name, number or date of birth of the patient.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"
 
 "$programs/synthetic_ct" --anatomy "$repository/config/anatomies/fork.yaml" --view fit --spacing 0.6 --out fork.vol \

@@ -1,10 +1,7 @@
 #!/bin/bash
 # vessel_segment refuses wrong images and clicks with place and remedy, leaves no vessel, and warns of doubtful images.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"
 failures=0
 

@@ -2,10 +2,7 @@
 # volume_import reads images of all formats, written without ITK, and refuses wrong ones. No installed program but
 # volume_import loads ITK, and none loads FFTW, whose licence is the GPL.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 
 /usr/bin/python3 "$repository/test/image/check_volume_import.py" "$programs/volume_import" "$folder"
 

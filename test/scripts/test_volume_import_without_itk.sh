@@ -2,9 +2,7 @@
 # A build without ITK has a volume_import that names the commands for its installation, and an installation of ITK changes
 # the options of the build, so that CMake searches it again.
 set -eu
-repository=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder_of_a_test.sh"
 
 cmake -S "$repository" -B "$folder/build" -DENDOVASCULAR_ROS=OFF -DENDOVASCULAR_ITK=OFF > "$folder/log"
 cmake --build "$folder/build" --target volume_import >> "$folder/log"

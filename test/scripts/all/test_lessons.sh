@@ -2,11 +2,9 @@
 # Each lesson in rviz on a virtual screen: push, twist, pause, reset and record by clicks and keys, each observed on topics.
 #   NAME… as arguments: only these lessons
 set -eu
-repository=$(cd "$(dirname "$0")/../../.." && pwd)
+. "$(dirname "$0")/../folder_of_a_test.sh"
 [ -e "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/lib/libendovascular_sim_rviz.so" ] || { echo "skipped: the plugin of rviz is not built"; exit 77; }
 . "$repository/test/scripts/graph_environment.sh"
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 [ $# -gt 0 ] || set -- lesson_bifurcation lesson_catheter_needs_wire lesson_lad_stent
 
 for lesson in "$@"; do

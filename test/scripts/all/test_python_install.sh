@@ -4,13 +4,11 @@
 # Also the package of an installation.
 #   --alone   builds the core, too, in place of finding one
 set -eu
-repository=$(cd "$(dirname "$0")/../../.." && pwd)
+. "$(dirname "$0")/../folder_of_a_test.sh"
 build=${ENDOVASCULAR_BUILD_DIR:-$repository/catkin_ws/build}
 devel=${ENDOVASCULAR_DEVEL_DIR:-$repository/catkin_ws/devel}
 unset ENDOVASCULAR_CONFIG_DIR LD_LIBRARY_PATH PYTHONPATH
 export PATH=/usr/bin:/bin
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
 
 "$devel/lib/endovascular_sim/simulate" "$repository/config/scenes/tube.yaml" --seconds 0.4 --no-plots --quiet --out "$folder/run"
 wanted=$(sed -n 's/.*"trajectory_hash": *"\([0-9a-f]*\)".*/\1/p' "$folder/run/result.json")
