@@ -33,7 +33,7 @@ void requireShape(const CommandArray& array, const scene::Scene& scene, const ch
                        ", 3]: insertion [m], rotation [rad] and pressure [Pa] of every instrument");
 }
 
-void requireValid(const simulation::HandCommand& command, const scene::DrivenInstrument& driven, std::size_t step)
+void requireValid(const drive::HandCommand& command, const scene::DrivenInstrument& driven, std::size_t step)
 {
   const std::string where = "step " + std::to_string(step) + ", instrument '" + driven.instrument.name + "'";
   if (!std::isfinite(command.insertion) || !std::isfinite(command.rotation) || !std::isfinite(command.pressure))

@@ -16,7 +16,7 @@ using CommandArray = pybind11::array_t<double, pybind11::array::c_style | pybind
 CommandArray commandArray(const pybind11::object& commands);
 
 /** Commands of one step, one per instrument. */
-using StepCommands = std::vector<simulation::HandCommand>;
+using StepCommands = std::vector<drive::HandCommand>;
 
 /** Commands [instrument, 3] or [step, instrument, 3] of a scene, one element per step: insertion [m], rotation [rad],
  *  pressure [Pa].

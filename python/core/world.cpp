@@ -226,7 +226,7 @@ py::array_t<double> commandsOf(const SharedWorld& shared, std::int64_t steps, st
   py::array_t<double> array({static_cast<py::ssize_t>(steps), instruments, py::ssize_t{3}});
   double* value = array.mutable_data();
   for (std::int64_t k = first + 1; k <= first + steps; ++k)
-    for (const simulation::HandCommand& command :
+    for (const drive::HandCommand& command :
          simulation::commandsAt(shared.scene(), static_cast<double>(k) * shared.scene().solver.time_step))
     {
       *value++ = command.insertion;

@@ -62,7 +62,7 @@ std::string Operator::viewOf(std::size_t step) const
   return steps_[step].view;
 }
 
-const std::vector<simulation::HandCommand>& Operator::next(const simulation::Simulation& simulation)
+const std::vector<drive::HandCommand>& Operator::next(const simulation::Simulation& simulation)
 {
   if (observesBefore(simulation.steps()))
     observe(procedure::observe(scene_, simulation, locator()));

@@ -41,16 +41,16 @@ public:
 
   /** Commands for the next step of the simulation, one per instrument. Instruments without drive.source: procedure
    *  follow their own drives. To be called once before each step. */
-  const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation);
+  const std::vector<drive::HandCommand>& next(const simulation::Simulation& simulation);
 
   /** Parts of next(), for observations from another source. @{ */
   bool observesBefore(std::uint64_t step) const { return step % observation_interval_ == 0; }
   void observe(const Observation& observation);
-  const std::vector<simulation::HandCommand>& advance(double end_time) { return hands_.advance(scene_, end_time); }
+  const std::vector<drive::HandCommand>& advance(double end_time) { return hands_.advance(scene_, end_time); }
   /** @} */
 
   /** Commands of the last call of next() or advance(). */
-  const std::vector<simulation::HandCommand>& commands() const { return hands_.commands(); }
+  const std::vector<drive::HandCommand>& commands() const { return hands_.commands(); }
 
   Progress progress() const { return progress_; }
   /** Description of the failure: step, reason, position of the tip; empty without a failure. */
@@ -58,7 +58,6 @@ public:
   const std::vector<StepRecord>& records() const { return records_; }  ///< records of all steps begun so far
   std::size_t steps() const { return steps_.size(); }                  ///< number of steps, an exchange counted as two
   const BranchLocator& locator() const { return *branches_; }
-  int entryBranch() const { return entry_branch_; }  ///< branch that contains the introducer
 
   /** Saves or loads the mutable state. */
   void archive(Archive& archive);

@@ -28,20 +28,6 @@ namespace endovascular_sim::scene
 namespace
 {
 
-vessel::TubeShape tubeShape(const VesselScene::Tube& tube, const EntryPose& start)
-{
-  vessel::TubeShape shape;
-  shape.radius = tube.radius;
-  shape.facet_length = tube.facet_length;
-  shape.facets_around = tube.facets_around;
-  for (const VesselScene::TubePiece& piece : tube.pieces)
-    shape.pieces.push_back({piece.length, piece.curvature, piece.plane_angle});
-  shape.position = start.position;
-  shape.direction = start.direction;
-  shape.up = start.d1;
-  return shape;
-}
-
 vessel::Vessel vesselFromMeshFile(const VesselScene& scene, const ProgressReport& progress)
 {
   vessel::Vessel vessel;
@@ -171,13 +157,7 @@ CentrelineUse centrelineUse(const Scene& scene)
 
 contact::WallLaw wallLaw(const VesselScene& scene)
 {
-  contact::WallLaw law;
-  law.shape = scene.wall;
-  law.stiffness = scene.stiffness;
-  law.friction = scene.friction;
-  for (const VesselScene::FrictionRegion& region : scene.friction_regions)
-    law.regions.push_back({region.centre, region.radius, region.friction});
-  return law;
+  return {scene.wall, scene.stiffness, scene.friction, scene.friction_regions};
 }
 
 vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, const std::string& origin,
@@ -186,7 +166,11 @@ vessel::Vessel buildVessel(const VesselScene& scene, const EntryScene& entry, co
   vessel::Vessel vessel;
   if (scene.tube)
   {
-    const vessel::TubeShape shape = tubeShape(*scene.tube, resolveEntry(entry, origin));
+    const EntryPose start = resolveEntry(entry, origin);
+    vessel::TubeShape shape = *scene.tube;
+    shape.position = start.position;
+    shape.direction = start.direction;
+    shape.up = start.d1;
     vessel.source = "tube";
     vessel.mesh = vessel::tubeMesh(shape);
     vessel.centreline = vessel::tubeCentreline(shape);

@@ -67,33 +67,15 @@ struct Session::Run
   std::unique_ptr<contact::Detector> detector;
   std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null unless an instrument has a balloon
   simulation::Simulation simulation;
-
-  /** Commands of the operator for the next step, which it gives once; null without a procedure. */
-  const std::vector<simulation::HandCommand>* scriptedCommands()
-  {
-    if (scripted && observed_steps != simulation.steps() + 1)
-    {
-      scripted->next(simulation);
-      observed_steps = simulation.steps() + 1;
-    }
-    return scripted ? &scripted->commands() : nullptr;
-  }
-
-  /** Wall that balloons deform; null without one. */
-  const intervention::DeformableWall* deformable(const SessionSettings& settings) const
-  {
-    return settings.wall ? settings.wall.get() : wall.get();
-  }
-
   std::optional<procedure::Operator> scripted;
   std::uint64_t observed_steps = 0;  ///< number of steps, with the one for which the operator has given its commands
   simulation::DrivenHands hands;
   simulation::RobotHardware hardware;
   Observation observation;
   std::optional<RunRecord> record;
-  std::vector<simulation::HandCommand> commands;
-  std::vector<simulation::HandCommand> executed;  ///< in the last step, after all faults
-  double seconds = 0.0;                           ///< computing time of the last step [s]
+  std::vector<drive::HandCommand> commands;
+  std::vector<drive::HandCommand> executed;  ///< in the last step, after all faults
+  double seconds = 0.0;                      ///< computing time of the last step [s]
 };
 
 /** X-ray system of a session. */
@@ -191,10 +173,10 @@ bool Session::isOver() const
 }
 
 /** Commands of the next step by the operator, clients and the scene's drives. */
-const std::vector<simulation::HandCommand>& Session::nextCommands()
+const std::vector<drive::HandCommand>& Session::nextCommands()
 {
   Run& run = this->run();
-  const std::vector<simulation::HandCommand>* scripted = run.scriptedCommands();
+  const std::vector<drive::HandCommand>* scripted = scriptedCommands();
   if (settings_.clients)
     return run.hands.next(run.simulation, scripted, &run.hardware.faults());
   if (scripted != nullptr)
@@ -204,12 +186,18 @@ const std::vector<simulation::HandCommand>& Session::nextCommands()
   return run.commands;
 }
 
-const std::vector<simulation::HandCommand>* Session::scriptedCommands()
+const std::vector<drive::HandCommand>* Session::scriptedCommands()
 {
-  return run().scriptedCommands();
+  Run& run = this->run();
+  if (run.scripted && run.observed_steps != run.simulation.steps() + 1)
+  {
+    run.scripted->next(run.simulation);
+    run.observed_steps = run.simulation.steps() + 1;
+  }
+  return run.scripted ? &run.scripted->commands() : nullptr;
 }
 
-void Session::advance(const std::vector<simulation::HandCommand>& commands)
+void Session::advance(const std::vector<drive::HandCommand>& commands)
 {
   Run& run = this->run();
   const Clock::time_point before = Clock::now();
@@ -234,7 +222,7 @@ int Session::step(int steps)
   return made;
 }
 
-void Session::requireValid(const std::vector<simulation::HandCommand>& commands) const
+void Session::requireValid(const std::vector<drive::HandCommand>& commands) const
 {
   const std::vector<scene::DrivenInstrument>& instruments = scene().instruments;
   if (commands.size() != instruments.size())
@@ -251,15 +239,14 @@ void Session::requireValid(const std::vector<simulation::HandCommand>& commands)
   }
 }
 
-void Session::step(const std::vector<simulation::HandCommand>& commands, int steps)
+void Session::step(const std::vector<drive::HandCommand>& commands, int steps)
 {
   requireValid(commands);
   if (steps < 0)
     throw std::invalid_argument("Session: the number of steps is negative");
-  Run& run = this->run();
   for (int k = 0; k < steps; ++k)
   {
-    run.scriptedCommands();
+    scriptedCommands();
     advance(commands);
   }
 }
@@ -323,7 +310,7 @@ void Session::setNoiseSeed(std::uint64_t seed)
   run().hardware.setSeed(seed);
 }
 
-const std::vector<simulation::HandCommand>& Session::executedCommands() const
+const std::vector<drive::HandCommand>& Session::executedCommands() const
 {
   return run().executed;
 }
@@ -352,16 +339,22 @@ const fluoroscopy::Frame& Session::image(const std::string& view)
   Run& run = this->run();
   imaging_->image.setView(view);
   imaging_->image.restart();
-  const intervention::DeformableWall* deformable = run.deformable(settings_);
+  const intervention::DeformableWall* deformable = deformableWall();
   const std::uint64_t version = deformable != nullptr ? deformable->version() : 0;
   const bool moved = std::exchange(imaging_->wall, version) != version;
   return imaging_->image.frame(run.simulation, moved ? &wall() : nullptr);
 }
 
+/** Wall that balloons deform; null without one. */
+const intervention::DeformableWall* Session::deformableWall() const
+{
+  return settings_.wall ? settings_.wall.get() : run().wall.get();
+}
+
 const geometry::TriangleMesh& Session::wall() const
 {
   static const geometry::TriangleMesh none;
-  const intervention::DeformableWall* deformable = run().deformable(settings_);
+  const intervention::DeformableWall* deformable = deformableWall();
   if (deformable != nullptr && deformable->mesh() != nullptr)
     return *deformable->mesh();
   return world_->vessel() != nullptr ? world_->vessel()->mesh : none;
@@ -416,6 +409,8 @@ void Session::load(const std::string& state, const std::string& origin, const Lo
                               if (!archive.atEnd())
                                 archive(loaded->hardware);
                             });
+    if (seed != 0 && !settings_.varied)
+      throw InputError(origin, "", "has a varied start, which this session excludes; use simulate --from-state");
   } while (seed != loaded->seed);
   start(std::move(loaded));
 }

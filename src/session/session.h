@@ -40,6 +40,7 @@ struct SessionSettings
   /** Wall that balloons deform in place of one in this process; null: that one. With a source of contact sets of its
    *  own, a scene with a balloon needs such a wall, too. */
   std::shared_ptr<intervention::DeformableWall> wall;
+  bool varied = true;  ///< false: load() refuses a state with a varied start
 };
 
 /** Loads controls of clients that a caller keeps. @param archive null: the state has none */
@@ -94,14 +95,14 @@ public:
   int step(int steps = 1);
 
   /** Commands of the operator for the next step, one per instrument; null without one. It observes once a step. */
-  const std::vector<simulation::HandCommand>* scriptedCommands();
+  const std::vector<drive::HandCommand>* scriptedCommands();
 
   /** Advances by steps with the same commands in each, also beyond the end. The operator observes these steps, but its
    *  commands are not used.
    *  @param commands one per instrument of the scene, in its order; those of scriptedCommands() are accepted
    *  @throws std::invalid_argument unless there is one finite command for every instrument, with a pressure for
    *          instruments with a balloon only */
-  void step(const std::vector<simulation::HandCommand>& commands, int steps = 1);
+  void step(const std::vector<drive::HandCommand>& commands, int steps = 1);
 
   /** Control of an instrument by commands of clients: positions, velocities, forces, moves.
    *  @throws std::invalid_argument without SessionSettings::clients, or if no client drives the instrument */
@@ -120,7 +121,7 @@ public:
   // -------------------------------------------------------------------------------------- faults and random errors
 
   /** Commands that the handles followed in the last step, after all faults; none before the first one. */
-  const std::vector<simulation::HandCommand>& executedCommands() const;
+  const std::vector<drive::HandCommand>& executedCommands() const;
 
   /** Faults of the robot: those of the scene, and added ones. They are part of a saved state; reset() leaves those of
    *  the scene. */
@@ -178,7 +179,8 @@ public:
   /** Continues from a state of save(), of `simulate --save-state` or of `rod_dynamics`, bit for bit as the session that
    *  was saved. Results, and sums over past steps, begin at the state. A refused state has no effect.
    *  @param origin names the state in errors
-   *  @throws InputError for a damaged state, or one of another version, scene or vessel */
+   *  @throws InputError for a damaged state, one of another version, scene or vessel, or one that
+   * SessionSettings::varied excludes */
   void load(const std::string& state, const std::string& origin = "state") { load(state, origin, {}); }
 
   /** As load(), with controls of clients that the caller keeps.
@@ -231,9 +233,10 @@ private:
   std::unique_ptr<Run> begin(std::uint64_t seed) const;
   Run& run() const;
   void start(std::unique_ptr<Run> run);
-  const std::vector<simulation::HandCommand>& nextCommands();
-  void requireValid(const std::vector<simulation::HandCommand>& commands) const;
-  void advance(const std::vector<simulation::HandCommand>& commands);
+  const intervention::DeformableWall* deformableWall() const;
+  const std::vector<drive::HandCommand>& nextCommands();
+  void requireValid(const std::vector<drive::HandCommand>& commands) const;
+  void advance(const std::vector<drive::HandCommand>& commands);
 
   std::shared_ptr<const World> world_;
   SessionSettings settings_;

@@ -109,9 +109,9 @@ void DrivenHands::archive(Archive& archive)
       archive(*control);
 }
 
-const std::vector<HandCommand>& DrivenHands::next(const Simulation& simulation,
-                                                  const std::vector<HandCommand>* scripted,
-                                                  const robot::CommandFaults* faults)
+const std::vector<drive::HandCommand>& DrivenHands::next(const Simulation& simulation,
+                                                         const std::vector<drive::HandCommand>* scripted,
+                                                         const robot::CommandFaults* faults)
 {
   const double dt = scene_.solver.time_step;
   const double end = static_cast<double>(simulation.steps() + 1) * dt;

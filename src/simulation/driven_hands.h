@@ -43,8 +43,9 @@ public:
   /** Commands of the coming step, one per instrument.
    *  @param scripted commands of the scripted operator; null without one
    *  @param faults that act on these commands, of which the controls see nothing; null without any */
-  const std::vector<HandCommand>& next(const Simulation& simulation, const std::vector<HandCommand>* scripted = nullptr,
-                                       const robot::CommandFaults* faults = nullptr);
+  const std::vector<drive::HandCommand>& next(const Simulation& simulation,
+                                              const std::vector<drive::HandCommand>* scripted = nullptr,
+                                              const robot::CommandFaults* faults = nullptr);
 
   /** Holds all instruments that clients drive where they are. */
   void restAt(const Simulation& simulation);
@@ -58,7 +59,7 @@ public:
 private:
   const scene::Scene& scene_;
   std::vector<std::optional<drive::HandControl>> controls_;  ///< one per instrument
-  std::vector<HandCommand> next_;
+  std::vector<drive::HandCommand> next_;
 };
 
 /** Commands of a file to the instruments of a scene, each given before the first step that begins at its time or later.

@@ -29,10 +29,10 @@ double nextGrip(double grip, double wanted, double resistance, double limit, dou
 
 }  // namespace
 
-HandIncrement Handle::wanted(const HandState& now, const HandCommand& command, const HandleRange* range, bool stale,
-                             double dt)
+drive::HandIncrement Handle::wanted(const HandState& now, const drive::HandCommand& command, const HandleRange* range,
+                                    bool stale, double dt)
 {
-  HandIncrement rest{0.0, command.rotation - slipped_.rotation - now.rotation};
+  drive::HandIncrement rest{0.0, command.rotation - slipped_.rotation - now.rotation};
   if (range != nullptr)
   {
     // Limited after the slip, or a wire that has slipped in the fingers could not leave the introducer.
@@ -41,7 +41,7 @@ HandIncrement Handle::wanted(const HandState& now, const HandCommand& command, c
       rest.insertion =
           std::clamp(rest.insertion, range->least - now.insertion, std::max(range->least, range->most) - now.insertion);
   }
-  HandIncrement motion = pacer_.follow(rest, stale);
+  drive::HandIncrement motion = pacer_.follow(rest, stale);
   // A chuck that is stopped by the force pushes on slowly; fast attempts would only cost sub-steps.
   const double most = speed_ * dt * (!slips_ ? std::max(kStalledSpeed, grip_) : 1.0);
   const double most_turn = turning_speed_ * dt * (!slips_ ? std::max(kStalledSpeed, turning_grip_) : 1.0);
@@ -50,12 +50,13 @@ HandIncrement Handle::wanted(const HandState& now, const HandCommand& command, c
   return motion;
 }
 
-HandIncrement Handle::allowed(const HandState& now, const HandIncrement& wanted, const HandleRange& range, double dt)
+drive::HandIncrement Handle::allowed(const HandState& now, const drive::HandIncrement& wanted, const HandleRange& range,
+                                     double dt)
 {
   grip_ = nextGrip(grip_, wanted.insertion, now.force, force_limit_, dt);
   const double reached = std::max(range.least, std::min(range.most, now.insertion + grip_ * wanted.insertion));
   turning_grip_ = nextGrip(turning_grip_, wanted.rotation, now.torque, torque_limit_, dt);
-  const HandIncrement motion = {reached - now.insertion, turning_grip_ * wanted.rotation};
+  const drive::HandIncrement motion = {reached - now.insertion, turning_grip_ * wanted.rotation};
   if (slips_)
   {
     slipped_.insertion += wanted.insertion - motion.insertion;

@@ -13,8 +13,6 @@ class Archive;
 namespace endovascular_sim::simulation
 {
 
-using drive::HandCommand;
-
 /** Handle of one instrument: its position, and force and torque on the user's hand. */
 struct HandState
 {
@@ -52,19 +50,20 @@ public:
    *  @param range null without an introducer: then only rotations pass
    *  @param stale the newest contact set is: the motion is paced
    *  @param dt of the step [s] */
-  HandIncrement wanted(const HandState& now, const HandCommand& command, const HandleRange* range, bool stale,
-                       double dt);
+  drive::HandIncrement wanted(const HandState& now, const drive::HandCommand& command, const HandleRange* range,
+                              bool stale, double dt);
 
   /** Part of a wanted motion that reaches the instrument in a sub-step; the grip is updated.
    *  @param dt of the sub-step [s] */
-  HandIncrement allowed(const HandState& now, const HandIncrement& wanted, const HandleRange& range, double dt);
+  drive::HandIncrement allowed(const HandState& now, const drive::HandIncrement& wanted, const HandleRange& range,
+                               double dt);
 
   /** Takes over a slip that the solution of the sub-step has shown: the grip is as loose as that.
    *  @param before, wanted, reached insertions at its beginning and end [m] */
   void noteSlip(double before, double wanted, double reached);
 
   /** Motion that fingers have slipped: the scale of the commands minus the position; 0 for a chuck. */
-  const HandIncrement& slipped() const { return slipped_; }
+  const drive::HandIncrement& slipped() const { return slipped_; }
 
   StaleContactPacer& pacer() { return pacer_; }
 
@@ -77,7 +76,7 @@ private:
   double force_limit_;    ///< [N]
   double torque_limit_;   ///< [N·m]
   StaleContactPacer pacer_;
-  HandIncrement slipped_;
+  drive::HandIncrement slipped_;
   double grip_ = 1.0;          ///< while pushing, 1 firm to 0 slipping
   double turning_grip_ = 1.0;  ///< while turning
 };

@@ -35,9 +35,9 @@ double staleCover(const scene::Scene& scene)
 
 }  // namespace
 
-std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time)
+std::vector<drive::HandCommand> commandsAt(const scene::Scene& scene, double time)
 {
-  std::vector<HandCommand> commands;
+  std::vector<drive::HandCommand> commands;
   for (const scene::DrivenInstrument& driven : scene.instruments)
     commands.push_back({driven.drive.insertionAt(time), driven.drive.rotationAt(time), driven.drive.pressureAt(time)});
   return commands;
@@ -107,7 +107,7 @@ HandState Simulation::hand(int instrument) const
 drive::HandMotion Simulation::reached(int instrument) const
 {
   const HandState now = hand(instrument);
-  const HandIncrement& slipped = hands_[instrument].slipped();
+  const drive::HandIncrement& slipped = hands_[instrument].slipped();
   return {now.insertion + slipped.insertion, now.rotation + slipped.rotation};
 }
 
@@ -131,7 +131,7 @@ double Simulation::outsideInsertion() const
   return rod::outsideInsertion(discretisation(), scene_.solver.guide_length);
 }
 
-void Simulation::setPressures(const std::vector<HandCommand>& commands)
+void Simulation::setPressures(const std::vector<drive::HandCommand>& commands)
 {
   for (int k = 0; k < instruments(); ++k)
   {
@@ -146,7 +146,7 @@ bool Simulation::isOutside(int instrument) const
   return instruments() > 1 && hand(instrument).insertion <= outsideInsertion() + kAtIntroducer;
 }
 
-HandIncrement Simulation::wantedMotion(int instrument, const HandCommand& command)
+drive::HandIncrement Simulation::wantedMotion(int instrument, const drive::HandCommand& command)
 {
   const bool stale = contacts_ != nullptr && stepper_->contactSet().stale;
   const double dt = scene_.solver.time_step;
@@ -328,12 +328,12 @@ void Simulation::rest()
 }
 
 /** Number of sub-steps in which no handle moves further than allowed. */
-int Simulation::substepsFor(const std::vector<HandIncrement>& wanted, const rod::EndMotion& from,
+int Simulation::substepsFor(const std::vector<drive::HandIncrement>& wanted, const rod::EndMotion& from,
                             const rod::EndMotion& to) const
 {
   double travel = (to.displacement - from.displacement).norm();
   double turn = std::max(std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm());
-  for (const HandIncrement& hand : wanted)
+  for (const drive::HandIncrement& hand : wanted)
   {
     travel = std::max(travel, std::abs(hand.insertion));
     turn = std::max(turn, std::abs(hand.rotation));
@@ -343,17 +343,18 @@ int Simulation::substepsFor(const std::vector<HandIncrement>& wanted, const rod:
 }
 
 /** Sets the positions of all handles at the end of a sub-step. */
-void Simulation::setHandles(const std::vector<HandIncrement>& parts, bool stale, double dt, rod::StepInput& input)
+void Simulation::setHandles(const std::vector<drive::HandIncrement>& parts, bool stale, double dt,
+                            rod::StepInput& input)
 {
   handles_.clear();
   for (int k = 0; k < instruments(); ++k)
   {
     const HandState now = hand(k);
-    HandIncrement motion = parts[k];
+    drive::HandIncrement motion = parts[k];
     if (stale)
     {
       hands_[k].pacer().miss(parts[k]);
-      motion = HandIncrement();
+      motion = drive::HandIncrement();
     }
     else if (scene_.introducer)
       motion = hands_[k].allowed(now, parts[k], range(k), dt);
@@ -375,7 +376,7 @@ void Simulation::endTreatments()
   treatments_.endStep(steps_, pressures_, state_, discretisation());
 }
 
-void Simulation::stepAll(const std::vector<HandCommand>& commands)
+void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
 {
   if (commands.size() != hands_.size())
     throw std::invalid_argument("Simulation: requires one command for every instrument");

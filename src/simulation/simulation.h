@@ -23,7 +23,7 @@ namespace endovascular_sim::simulation
 {
 
 /** Commands of the scene's drives for all instruments at a time [s]. */
-std::vector<HandCommand> commandsAt(const scene::Scene& scene, double time);
+std::vector<drive::HandCommand> commandsAt(const scene::Scene& scene, double time);
 
 /** Simulation of a scene in fixed time steps. The nodes and the offline tool run this same code, so that the same
  *  commands give the same trajectory bit for bit. */
@@ -40,14 +40,14 @@ public:
   /** Advances by one time step. The hand slips or stops (DriveScene::grip) where the wire resists with more than the
    *  scene's limits, and moves at most at drive.limits.speed: the rest of a faster command follows in the next steps.
    */
-  void step(const HandCommand& command) { stepAll({command}); }
+  void step(const drive::HandCommand& command) { stepAll({command}); }
 
   /** Advances by one time step with one command for every instrument of the scene, in its order. The insertion of an
    *  instrument is limited by its length and by the introducer, where it waits while an instrument that does not fit is
    *  inside.
    *  @throws std::invalid_argument when there is not one command for every instrument, or a pressure for one without a
    *          balloon */
-  void stepAll(const std::vector<HandCommand>& commands);
+  void stepAll(const std::vector<drive::HandCommand>& commands);
 
   /** Number of the scene's instruments. */
   int instruments() const { return static_cast<int>(hands_.size()); }
@@ -142,13 +142,14 @@ private:
   void read(std::istream& stream, std::uint64_t vessel_hash, const std::string& origin, bool of_same_scene,
             const std::function<void(Archive&)>& more);
   void requireFit() const;
-  void setPressures(const std::vector<HandCommand>& commands);
-  HandIncrement wantedMotion(int instrument, const HandCommand& command);
+  void setPressures(const std::vector<drive::HandCommand>& commands);
+  drive::HandIncrement wantedMotion(int instrument, const drive::HandCommand& command);
   HandleRange range(int instrument) const;
   double leastInsertion(int instrument) const;
   double mostInsertion(int instrument) const;
-  int substepsFor(const std::vector<HandIncrement>& wanted, const rod::EndMotion& from, const rod::EndMotion& to) const;
-  void setHandles(const std::vector<HandIncrement>& parts, bool stale, double dt, rod::StepInput& input);
+  int substepsFor(const std::vector<drive::HandIncrement>& wanted, const rod::EndMotion& from,
+                  const rod::EndMotion& to) const;
+  void setHandles(const std::vector<drive::HandIncrement>& parts, bool stale, double dt, rod::StepInput& input);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
   void resample();
@@ -174,7 +175,7 @@ private:
   rod::StepReport report_;
   std::vector<Handle> hands_;           ///< one per instrument
   std::vector<double> max_insertions_;  ///< at which the introducer's guide is still filled [m]
-  std::vector<HandIncrement> wanted_, parts_;
+  std::vector<drive::HandIncrement> wanted_, parts_;
   rod::State before_;                     ///< state before the present sub-step
   std::vector<rod::LayerInput> handles_;  ///< of the present sub-step, one per instrument
   std::vector<double> hand_forces_, hand_positions_;

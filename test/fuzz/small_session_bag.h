@@ -45,12 +45,12 @@ inline void writeSessionStart(rosbag::Bag& bag, const SmallSimulation& small)
 
 inline void writeSessionStep(rosbag::Bag& bag, SmallSimulation& small, std::uint64_t step)
 {
-  const std::vector<simulation::HandCommand> commands =
+  const std::vector<drive::HandCommand> commands =
       simulation::commandsAt(small.scene, static_cast<double>(step + 1) * small.scene.solver.time_step);
   small.simulation.stepAll(commands);
   DriveApplied applied;
   applied.step = step;
-  for (const simulation::HandCommand& command : commands)
+  for (const drive::HandCommand& command : commands)
   {
     applied.insertion.push_back(command.insertion);
     applied.rotation.push_back(command.rotation);

@@ -69,7 +69,7 @@ public:
       if (scripted_operator.observesBefore(steps_))
         scripted_operator.observe(observation());
       time = static_cast<double>(steps_ + 1) * 1e-3;
-      const std::vector<simulation::HandCommand> commands = scripted_operator.advance(time);
+      const std::vector<drive::HandCommand> commands = scripted_operator.advance(time);
       for (std::size_t k = 0; k < hands_.size(); ++k)
       {
         hands_[k].insertion = commands[k].insertion;
@@ -103,7 +103,7 @@ public:
   double time = 0.0;
   double force = 0.0;                                         ///< force at each handle [N]
   std::function<void(Observation& observation)> disturbance;  ///< modifies each observation
-  std::vector<std::vector<simulation::HandCommand>> history;
+  std::vector<std::vector<drive::HandCommand>> history;
   const simulation::HandState& hand(int k) const { return hands_[static_cast<std::size_t>(k)]; }
 
 private:

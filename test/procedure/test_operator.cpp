@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
 #include "test/procedure/procedure_fixtures.h"
 
 namespace endovascular_sim::procedure
@@ -328,7 +329,7 @@ TEST(Operator, ExchangeWithdrawsOneInstrumentBeforeAdvancingTheOther)
                 "    - {exchange: wire, for: catheter, until: {insertion: 0.03}, speed: 0.05}\n"));
   world.run(10.0);
   EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
-  for (const std::vector<simulation::HandCommand>& commands : world.history)
+  for (const std::vector<drive::HandCommand>& commands : world.history)
     EXPECT_TRUE(commands[1].insertion <= 0.0 || commands[0].insertion <= -0.02)
         << commands[0].insertion << " " << commands[1].insertion;
   EXPECT_GT(world.hand(1).insertion, 0.03);
@@ -343,17 +344,11 @@ TEST(Operator, RejectsADeepestInsertionBelowTheGoal)
 
 TEST(Operator, RejectsAnUnknownBranch)
 {
-  try
-  {
-    PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: gaol}}\n"));
-    FAIL() << "accepted";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_STREQ(error.what(),
-                 "test scene: procedure.steps.0.until: the vessel has no branch 'gaol'; known: trunk, "
-                 "side, goal");
-  }
+  const std::string message =
+      inputErrorOf([&] { PlainWorld world(sceneWith("    - {advance: wire, until: {tip_in: gaol}}\n")); });
+  EXPECT_EQ(message,
+            "test scene: procedure.steps.0.until: the vessel has no branch 'gaol'; known: trunk, "
+            "side, goal");
 }
 
 TEST(Operator, AcceptsBranchNamesOfTheProcedure)

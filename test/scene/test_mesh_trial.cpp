@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "test/common/input_error_of.h"
 #include "vessel/anatomy/tube.h"
 #include "vessel/centreline/centreline_file.h"
 #include "vessel/io/mesh_reader.h"
@@ -37,15 +37,7 @@ protected:
   {
     vessel::writeObj(mesh_, mesh_file_);
     vessel::writeCentreline(tree_, "tube", centreline_file_);
-    try
-    {
-      trial_ = tryMesh(mesh_file_, centreline_file_);
-      return "";
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
+    return inputErrorOf([&] { trial_ = tryMesh(mesh_file_, centreline_file_); });
   }
 
   const std::string folder_ = ::testing::TempDir() + "/mesh trial's #1";

@@ -14,6 +14,7 @@
 #include "contact/detector.h"
 #include "simulation/instrument_tip.h"
 #include "simulation/local_deformable_wall.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::session
 {
@@ -234,6 +235,22 @@ TEST(Session, ContinuesAStateOfAnotherSeed)
   EXPECT_EQ(first.save(), second.save());
 }
 
+TEST(Session, OfPlainStartsOnlyRefusesAStateOfASeedWithoutAnEffect)
+{
+  SessionSettings settings;
+  settings.varied = false;
+  Session first(tubeWithOperator());
+  Session second(first.sharedWorld(), settings);
+  first.step(300);
+  second.load(first.save());
+  first.reset(5);
+  first.step(100);
+  const std::string message = inputErrorOf([&] { second.load(first.save(), "a.state"); });
+  EXPECT_NE(message.find("a.state: has a varied start"), std::string::npos) << message;
+  EXPECT_EQ(second.observe().step(), 300U);
+  EXPECT_EQ(second.seed(), 0U);
+}
+
 TEST(Session, ContinuesAStateWithACommandInProgress)
 {
   SessionSettings settings;
@@ -284,15 +301,8 @@ TEST(Session, CopiesNoWallInAnInflationThatWasPrepared)
 
 TEST(World, NamesTheLibraryThatASceneWithARobotNeeds)
 {
-  try
-  {
-    World::open(TEST_DATA_DIR "/robot_in_tube.yaml");
-    ADD_FAILURE() << "not refused";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("endovascular_sim::robot"), std::string::npos) << error.what();
-  }
+  const std::string message = inputErrorOf([&] { World::open(TEST_DATA_DIR "/robot_in_tube.yaml"); });
+  EXPECT_NE(message.find("endovascular_sim::robot"), std::string::npos) << message;
 }
 
 TEST(Session, AdoptsTheShapeOfAStateUnderAnotherFriction)
@@ -312,7 +322,7 @@ TEST(Session, AdoptsTheShapeOfAStateUnderAnotherFriction)
   EXPECT_EQ(second.observe().step(), 900U);
   EXPECT_EQ(second.observe().hand(0).insertion, first.observe().hand(0).insertion);
   const double before = second.observe().hand(0).insertion;
-  const simulation::HandCommand hold = {before, second.observe().hand(0).rotation, 0.0};
+  const drive::HandCommand hold = {before, second.observe().hand(0).rotation, 0.0};
   second.step({hold}, 50);
   EXPECT_EQ(second.observe().hand(0).insertion, before);
   for (std::size_t k = 0; k < second.observe().nodes().size(); ++k)
@@ -340,15 +350,8 @@ TEST(Session, AdoptsNothingOfOtherInstrumentsOrNodes)
     Session other("tube", {change});
     other.step(10);
     const std::string before = other.save();
-    try
-    {
-      other.adopt(state);
-      ADD_FAILURE() << change;
-    }
-    catch (const InputError& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("state: "), std::string::npos);
-    }
+    const std::string message = inputErrorOf([&] { other.adopt(state); });
+    EXPECT_NE(message.find("state: "), std::string::npos) << change;
     EXPECT_EQ(other.save(), before);
   }
 }
@@ -381,7 +384,7 @@ TEST(Session, RepeatsACommandInEveryStepOfACall)
 {
   Session at_once(tube());
   Session one_by_one(tube());
-  const std::vector<simulation::HandCommand> commands = {{at_once.observe().hand(0).insertion + 0.01, 0.3}};
+  const std::vector<drive::HandCommand> commands = {{at_once.observe().hand(0).insertion + 0.01, 0.3}};
   at_once.step(commands, 50);
   for (int k = 0; k < 50; ++k)
     one_by_one.step(commands);
@@ -432,8 +435,8 @@ TEST(Session, RefusesWrongCommandsWithoutAnEffect)
   Session session(tube());
   session.step(10);
   const std::string state = session.save();
-  EXPECT_THROW(session.step(std::vector<simulation::HandCommand>()), std::invalid_argument);
-  EXPECT_THROW(session.step(std::vector<simulation::HandCommand>(2)), std::invalid_argument);
+  EXPECT_THROW(session.step(std::vector<drive::HandCommand>()), std::invalid_argument);
+  EXPECT_THROW(session.step(std::vector<drive::HandCommand>(2)), std::invalid_argument);
   EXPECT_THROW(session.step({{kNaN, 0.0, 0.0}}), std::invalid_argument);
   EXPECT_THROW(session.step({{0.0, INFINITY, 0.0}}), std::invalid_argument);
   EXPECT_THROW(session.step({{0.0, 0.0, 1e5}}), std::invalid_argument);
@@ -483,7 +486,7 @@ TEST(Session, StepsByTheCommandsOfItsOperatorAsByItself)
   Session by_itself(tubeWithOperator());
   for (int step = 0; step < 300; ++step)
   {
-    const std::vector<simulation::HandCommand>* commands = by_commands.scriptedCommands();
+    const std::vector<drive::HandCommand>* commands = by_commands.scriptedCommands();
     ASSERT_NE(commands, nullptr);
     EXPECT_EQ(by_commands.scriptedCommands(), commands);  // asking again changes nothing
     by_commands.step(*commands);

@@ -42,7 +42,7 @@ HandState at(double insertion, double force = 0.0)
 TEST(Handle, MovesAtMostAtTheSpeedOfItsDrive)
 {
   Handle handle = handleOf(drive::Grip::kFingers);
-  const HandIncrement motion = handle.wanted(at(0.05), {0.06, -1.0, 0.0}, &kRange, false, kStep);
+  const drive::HandIncrement motion = handle.wanted(at(0.05), {0.06, -1.0, 0.0}, &kRange, false, kStep);
   EXPECT_DOUBLE_EQ(motion.insertion, 0.1 * kStep);
   EXPECT_DOUBLE_EQ(motion.rotation, -10.0 * kStep);
 }
@@ -50,7 +50,7 @@ TEST(Handle, MovesAtMostAtTheSpeedOfItsDrive)
 TEST(Handle, OfFingersSlipsBeyondItsLimitAndRemembersTheSlip)
 {
   Handle handle = handleOf(drive::Grip::kFingers);
-  const HandIncrement wanted = {1e-4, 0.0};
+  const drive::HandIncrement wanted = {1e-4, 0.0};
   EXPECT_EQ(handle.allowed(at(0.05, 4.0), wanted, kRange, kStep).insertion, 0.0);
   EXPECT_DOUBLE_EQ(handle.slipped().insertion, 1e-4);
   // Afterwards the command leads to a position that is farther back by the slip.
@@ -97,7 +97,7 @@ TEST(Handle, TakesOverASlipOfTheSolution)
 TEST(Handle, WithoutAnIntroducerOnlyTurns)
 {
   Handle handle = handleOf(drive::Grip::kFingers);
-  const HandIncrement motion = handle.wanted(at(0.0), {0.5, 1e-3, 0.0}, nullptr, false, kStep);
+  const drive::HandIncrement motion = handle.wanted(at(0.0), {0.5, 1e-3, 0.0}, nullptr, false, kStep);
   EXPECT_EQ(motion.insertion, 0.0);
   EXPECT_DOUBLE_EQ(motion.rotation, 1e-3);
 }

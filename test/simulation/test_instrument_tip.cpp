@@ -26,10 +26,10 @@ void turnTo(Simulation& simulation, double rotation, double speed)
   const auto steps = static_cast<int>(std::ceil(std::abs(rotation - begin.rotation) / step));
   for (int k = 1; k <= steps; ++k)
   {
-    HandCommand command;
+    drive::HandCommand command;
     command.insertion = begin.insertion;
     command.rotation = begin.rotation + (rotation - begin.rotation) * k / steps;
-    std::vector<HandCommand> commands(static_cast<std::size_t>(simulation.instruments()), command);
+    std::vector<drive::HandCommand> commands(static_cast<std::size_t>(simulation.instruments()), command);
     for (int other = 1; other < simulation.instruments(); ++other)
       commands[static_cast<std::size_t>(other)] = {simulation.hand(other).insertion, simulation.hand(other).rotation};
     simulation.stepAll(commands);

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "contact/detector.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
+#include "test/common/input_error_of.h"
 
 namespace endovascular_sim::simulation
 {
@@ -51,14 +51,14 @@ struct Bench
   }
 
   /** Moves every handle evenly to its target. */
-  void move(const std::vector<HandCommand>& to, int steps)
+  void move(const std::vector<drive::HandCommand>& to, int steps)
   {
-    std::vector<HandCommand> from;
+    std::vector<drive::HandCommand> from;
     for (int k = 0; k < simulation->instruments(); ++k)
       from.push_back({simulation->hand(k).insertion, simulation->hand(k).rotation});
     for (int step = 1; step <= steps; ++step)
     {
-      std::vector<HandCommand> commands = from;
+      std::vector<drive::HandCommand> commands = from;
       const double share = static_cast<double>(step) / steps;
       for (std::size_t k = 0; k < to.size(); ++k)
       {
@@ -81,15 +81,7 @@ struct Bench
 
 std::string refusalOf(const std::string& text)
 {
-  try
-  {
-    scene::parseScene(text, "two.yaml");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { scene::parseScene(text, "two.yaml"); });
 }
 
 TEST(Instruments, ACatheterFollowsItsWireAndStaysWhenTheWireLeaves)
@@ -159,7 +151,7 @@ TEST(Instruments, OnlyABalloonGetsThePressureOfItsDrive)
       stack(layer(kWire, 0.05) + "  - {instrument: {use: balloon_300_12_nc, name: balloon}, drive: {source: script, "
                                  "initial_insertion: -0.1, pressure: {points: [[0, 0], [1, 8.0e5]]}}}\n"),
       "two.yaml");
-  const std::vector<HandCommand> commands = commandsAt(scene, 0.5);
+  const std::vector<drive::HandCommand> commands = commandsAt(scene, 0.5);
   EXPECT_EQ(commands[0].pressure, 0.0);
   EXPECT_EQ(commands[1].pressure, 4.0e5);
   EXPECT_EQ(scene::parseScene(scene.resolved_yaml, "two.yaml").hash(), scene.hash());

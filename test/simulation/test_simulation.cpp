@@ -252,7 +252,7 @@ TEST(Simulation, LetsTheHandSlipAtTheForceLimit)
 TEST(Simulation, AWireThatHasSlippedInTheFingersStillLeavesTheIntroducer)
 {
   Bench bench("catheter.yaml", {"instruments.0.drive.force_limit=0.42"});
-  std::vector<HandCommand> commands = {{0.02, 0.0}, {-0.023, 0.0}};
+  std::vector<drive::HandCommand> commands = {{0.02, 0.0}, {-0.023, 0.0}};
   const auto move = [&](int instrument, double insertion, double speed)
   {
     double& commanded = commands[static_cast<std::size_t>(instrument)].insertion;

@@ -74,10 +74,10 @@ private:
     double insertion;  ///< [m]
   };
 
-  std::vector<simulation::HandCommand> next(std::uint64_t step)
+  std::vector<drive::HandCommand> next(std::uint64_t step)
   {
     const double time = static_cast<double>(step + 1) * scene_.solver.time_step;
-    std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, time);
+    std::vector<drive::HandCommand> commands = simulation::commandsAt(scene_, time);
     const auto turn = static_cast<std::size_t>(time / kShare);
     moved_[moved_.size() - 1 - turn % moved_.size()].insertion += kSpeed * scene_.solver.time_step;
     for (const Moved& moved : moved_)

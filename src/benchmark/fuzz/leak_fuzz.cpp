@@ -170,7 +170,7 @@ class RandomHand
 public:
   RandomHand(FuzzRandom& random, double time_step, double most) : random_(random), time_step_(time_step), most_(most) {}
 
-  simulation::HandCommand next()
+  drive::HandCommand next()
   {
     if (left_-- <= 0)
       choose();
@@ -280,7 +280,7 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
   const double grips = setup.force_limit + (setup.coaxial ? setup.outer_limit : 0.0);
   while (episode.steps < settings.steps_per_episode && episode.finite && !episode.escaped)
   {
-    std::vector<simulation::HandCommand> commands;
+    std::vector<drive::HandCommand> commands;
     for (RandomHand& hand : hands)
       commands.push_back(hand.next());
     session.step(commands);

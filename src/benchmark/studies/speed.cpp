@@ -165,7 +165,7 @@ Section growth(const StudyOptions& options, const Progress& progress)
       wire.strain_tolerance = 5e-5;
       BenchRun run(sceneText(wire));
       run.advance(0.02);
-      const std::vector<simulation::HandCommand> at_rest(1);
+      const std::vector<drive::HandCommand> at_rest(1);
       const std::uint64_t allocated = allocations ? allocations() : 0;
       const std::uint64_t begin = cycles();
       const int steps = std::max(20, 100000 / nodes);

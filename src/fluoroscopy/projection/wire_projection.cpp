@@ -103,7 +103,7 @@ int WireProjection::edgeOfStraightPart(const Eigen::Vector3d& ray, std::int32_t 
 }
 
 double WireProjection::transmission(const XRayGeometry& geometry, std::uint32_t pixel,
-                                    const DeviceCoefficients& coefficients, WireSamples& samples)
+                                    const DeviceCoefficients& coefficients, WireSamples& samples) const
 {
   const auto n = static_cast<std::uint32_t>(geometry.pixels());
   const Eigen::Vector3d ray = geometry.ray(pixel % n, pixel / n);
@@ -114,7 +114,6 @@ double WireProjection::transmission(const XRayGeometry& geometry, std::uint32_t 
     const WireEdge& edge = edges_[static_cast<std::size_t>(straight)];
     return profileTransmission(*edge.profile, edge.radius, PixelView(edge, ray, geometry.focalLength()), coefficients);
   }
-  ++sampled_;
   samples.clear();
   for (std::int32_t e = entry; e >= 0; e = entries_[static_cast<std::size_t>(e)].next)
     samples.add(edges_[static_cast<std::size_t>(entries_[static_cast<std::size_t>(e)].edge)], ray);
@@ -134,7 +133,6 @@ void WireProjection::project(const XRayGeometry& geometry, const std::vector<XRa
     appendEdges(geometry, wire, edges_);
   collect(geometry);
 
-  sampled_ = 0;
   WireSamples samples(geometry.focalLength());
   shadow.pixels = pixels_;
   shadow.transmission.resize(pixels_.size());

@@ -36,9 +36,6 @@ public:
   void project(const XRayGeometry& geometry, const std::vector<XRayWire>& wires, const Coefficients& coefficients,
                WireShadow& shadow);
 
-  /** Number of pixels of the last frame that were sampled by rays. */
-  std::size_t sampledPixels() const { return sampled_; }
-
 private:
   /** Edge in the list of a pixel. */
   struct Entry
@@ -49,14 +46,13 @@ private:
 
   void collect(const XRayGeometry& geometry);
   double transmission(const XRayGeometry& geometry, std::uint32_t pixel, const DeviceCoefficients& coefficients,
-                      WireSamples& samples);
+                      WireSamples& samples) const;
   int edgeOfStraightPart(const Eigen::Vector3d& ray, std::int32_t entry, double half_diagonal) const;
 
   std::vector<WireEdge> edges_;
   std::vector<std::int32_t> head_;     ///< per pixel: first entry, −1 for an unaffected pixel
   std::vector<std::uint32_t> pixels_;  ///< affected pixels
   std::vector<Entry> entries_;
-  std::size_t sampled_ = 0;
 };
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -25,8 +25,6 @@ public:
 
   bool isPlugged() const { return master_ >= 0; }
   int descriptor() const { return master_; }
-  /** Path of the host end, e.g. /dev/pts/3. */
-  const std::string& hostPath() const { return host_path_; }
 
   /** @return number of bytes read; 0 if none are available */
   std::size_t read(std::uint8_t* data, std::size_t size);

@@ -87,6 +87,7 @@ bool GraphSimulation::connect()
   session::SessionSettings settings;
   settings.contacts = contacts_;
   settings.wall = wall_;
+  settings.varied = false;
   session_.emplace(world, std::move(settings));
   if (scene_.procedure)
     procedure_.emplace(node_, scene_);
@@ -110,7 +111,7 @@ void GraphSimulation::step()
   const procedure::Operator* scripted = session_->scriptedOperator();
   // Metrics end with the procedure, as those of `simulate`.
   const bool counted = scripted == nullptr || scripted->progress() == procedure::Progress::kRunning;
-  const std::vector<simulation::HandCommand>& commands = nextCommands();
+  const std::vector<drive::HandCommand>& commands = nextCommands();
   {
     const LoopCosts::Scope scope(costs_, LoopPhase::kSimulation);
     session_->step(commands);
@@ -118,17 +119,17 @@ void GraphSimulation::step()
   publishStep(session_->executedCommands(), counted);
 }
 
-const std::vector<simulation::HandCommand>& GraphSimulation::nextCommands()
+const std::vector<drive::HandCommand>& GraphSimulation::nextCommands()
 {
   const LoopCosts::Scope scope(costs_, LoopPhase::kCommands);
-  const std::vector<simulation::HandCommand>* scripted = session_->scriptedCommands();
+  const std::vector<drive::HandCommand>* scripted = session_->scriptedCommands();
   if (procedure_)
     procedure_->publishChanges(*session_->scriptedOperator(), simulation().steps(), now());
   hardware_.applyChanges(*session_);
   return drives_.next(simulation(), scripted, session_->faults());
 }
 
-void GraphSimulation::publishStep(const std::vector<simulation::HandCommand>& commands, bool counted)
+void GraphSimulation::publishStep(const std::vector<drive::HandCommand>& commands, bool counted)
 {
   const LoopCosts::Scope scope(costs_, LoopPhase::kPublishing);
   const std::vector<RenderedHand>& hands = renderer_.render(simulation(), commands, scene_.solver.time_step);
@@ -211,9 +212,9 @@ std::string GraphSimulation::save()
   return session_->save([this](Archive& archive) { drives_.archive(archive); });
 }
 
-/** Loads session and drives. @throws InputError without an effect */
-void GraphSimulation::loadSession(const std::string& state, const std::string& origin)
+void GraphSimulation::load(const std::string& state, const std::string& origin)
 {
+  requireRigidWall();
   Archive before;
   drives_.archive(before);
   const auto loadDrives = [this](Archive* archive, const simulation::Simulation& loaded)
@@ -232,18 +233,6 @@ void GraphSimulation::loadSession(const std::string& state, const std::string& o
     Archive kept(before.bytes());
     drives_.archive(kept);
     throw;
-  }
-}
-
-void GraphSimulation::load(const std::string& state, const std::string& origin)
-{
-  requireRigidWall();
-  const std::string before = save();
-  loadSession(state, origin);
-  if (session_->seed() != 0)
-  {
-    loadSession(before, origin);
-    throw InputError(origin, "", "has a varied start, which nodes do not have; use simulate --from-state");
   }
   drives_.playFrom(simulation().time());
   beginRun();

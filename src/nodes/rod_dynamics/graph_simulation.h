@@ -94,11 +94,10 @@ public:
 
 private:
   std::optional<vessel::Vessel> waitForVessel();
-  const std::vector<simulation::HandCommand>& nextCommands();
-  void publishStep(const std::vector<simulation::HandCommand>& commands, bool counted);
+  const std::vector<drive::HandCommand>& nextCommands();
+  void publishStep(const std::vector<drive::HandCommand>& commands, bool counted);
   ros::Time now() const { return clock_.stamp(session_ ? simulation().steps() : 0); }
   void requireRigidWall() const;
-  void loadSession(const std::string& state, const std::string& origin);
   void beginRun();
 
   ros::NodeHandle& node_;

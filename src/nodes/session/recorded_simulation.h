@@ -40,7 +40,7 @@ private:
   std::string file_;
   std::shared_ptr<Contacts> contacts_;  ///< null without a vessel
   std::optional<session::Session> session_;
-  std::vector<simulation::HandCommand> commands_;
+  std::vector<drive::HandCommand> commands_;
 };
 
 /** Comparison of a recorded session with its simulation. */

@@ -20,6 +20,7 @@
 #include "rod/stepping/stepper.h"
 #include "scene/model/scene_procedure.h"
 #include "sensor/sensor_settings.h"
+#include "vessel/anatomy/tube.h"
 #include "vessel/model/lesion.h"
 
 namespace endovascular_sim::scene
@@ -38,22 +39,8 @@ struct VesselScene
 
   std::string anatomy;  ///< path of an anatomy YAML file, for a generated vessel
 
-  /** Straight or circular piece of a tube. */
-  struct TubePiece
-  {
-    double length = 0.0;       ///< arc length [m]
-    double curvature = 0.0;    ///< curvature [1/m]; 0 for a straight piece
-    double plane_angle = 0.0;  ///< direction of the bend about the tube's axis at the start of the piece [rad]
-  };
-  /** Channel of circular cross-section that starts at the entry. */
-  struct Tube
-  {
-    double radius = 0.0;        ///< radius of the lumen [m]
-    double facet_length = 0.0;  ///< largest length of a facet along the axis [m]
-    int facets_around = 32;     ///< number of facets around the circumference
-    std::vector<TubePiece> pieces;
-  };
-  std::optional<Tube> tube;
+  /** Channel of circular cross-section; it starts at the entry, whatever its own start is. */
+  std::optional<vessel::TubeShape> tube;
 
   /** Shape of the wall: the facets, or the smooth surface through their vertices. */
   contact::WallShape wall = contact::WallShape::kFacets;
@@ -61,14 +48,7 @@ struct VesselScene
   double stiffness = std::numeric_limits<double>::infinity();
   double friction = 0.0;  ///< Coulomb coefficient of the wall [1]
 
-  /** Ball with its own friction coefficient. Where several overlap, the last one applies. */
-  struct FrictionRegion
-  {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre in the patient frame [m]
-    double radius = 0.0;                               ///< radius of the ball [m]
-    double friction = 0.0;                             ///< Coulomb coefficient [1]
-  };
-  std::vector<FrictionRegion> friction_regions;
+  std::vector<contact::WallLaw::FrictionRegion> friction_regions;
 
   std::vector<vessel::Lesion> lesions;  ///< lesions added to the smoothed vessel
 };

@@ -34,7 +34,7 @@ Eigen::Matrix3d rotationFromBody(yaml::Fields& fields)
   return rotation;
 }
 
-void visitTube(yaml::Fields& fields, VesselScene::Tube& tube)
+void visitTube(yaml::Fields& fields, vessel::TubeShape& tube)
 {
   fields.number("radius", tube.radius, quantities::kVesselRadius, Range::positive(), Need::kRequired);
   if (fields.reading())
@@ -45,7 +45,7 @@ void visitTube(yaml::Fields& fields, VesselScene::Tube& tube)
       "pieces", tube.pieces.size(), [&tube](std::size_t size) { tube.pieces.resize(size); },
       [&tube](yaml::Fields& piece_fields, std::size_t k)
       {
-        VesselScene::TubePiece& piece = tube.pieces[k];
+        vessel::TubePiece& piece = tube.pieces[k];
         piece_fields.number("length", piece.length, quantities::kVesselLength, Range::positive(), Need::kRequired);
         piece_fields.number("curvature", piece.curvature, quantities::kVesselCurvature, Range::nonNegative());
         piece_fields.number("plane_angle", piece.plane_angle, quantities::kAngle, Range::any());
@@ -72,7 +72,7 @@ void visitMesh(yaml::Fields& fields, VesselScene& vessel)
 
 void visitFrictionRegions(yaml::Fields& fields, VesselScene& vessel)
 {
-  std::vector<VesselScene::FrictionRegion>& regions = vessel.friction_regions;
+  std::vector<contact::WallLaw::FrictionRegion>& regions = vessel.friction_regions;
   if (!fields.reading() && regions.empty())
     return;
   fields.list(
@@ -193,7 +193,7 @@ void visitVessel(yaml::Fields& fields, VesselScene& vessel)
   if (is_tube)
   {
     if (!vessel.tube)
-      vessel.tube = VesselScene::Tube{};
+      vessel.tube = vessel::TubeShape{};
     fields.map("tube", [&vessel](yaml::Fields& tube) { visitTube(tube, *vessel.tube); });
   }
   fields.integer("smoothing", vessel.smoothing, 0, 3);

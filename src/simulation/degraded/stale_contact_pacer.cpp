@@ -72,9 +72,9 @@ void StaleContactPacer::brake()
     approach(std::min(creep, pace_), jerk_);
 }
 
-HandIncrement StaleContactPacer::follow(const HandIncrement& wanted, bool stale)
+drive::HandIncrement StaleContactPacer::follow(const drive::HandIncrement& wanted, bool stale)
 {
-  HandIncrement motion = wanted;
+  drive::HandIncrement motion = wanted;
   if (stale || !isAtRest())
   {
     if (stale)
@@ -115,7 +115,7 @@ double StaleContactPacer::reach() const
   return kUsable * cover_;
 }
 
-void StaleContactPacer::miss(const HandIncrement& motion)
+void StaleContactPacer::miss(const drive::HandIncrement& motion)
 {
   insertion_.missed += motion.insertion;
   rotation_.missed += motion.rotation;

@@ -10,8 +10,6 @@ class Archive;
 namespace endovascular_sim::simulation
 {
 
-using drive::HandIncrement;
-
 /** Paces the commanded motion while contact sets are missing, so that neither their loss nor their return causes a
  * jump.
  *
@@ -33,13 +31,13 @@ public:
    *  @param wanted commanded motion of the step, including all missed motion
    *  @param stale true when the newest contact set is stale
    *  @return motion that the step performs */
-  HandIncrement follow(const HandIncrement& wanted, bool stale);
+  drive::HandIncrement follow(const drive::HandIncrement& wanted, bool stale);
 
   /** Largest travel without a fresh set [m]. */
   double reach() const;
 
   /** Adds to the missed motion the part of the last returned motion that was not performed. */
-  void miss(const HandIncrement& motion);
+  void miss(const drive::HandIncrement& motion);
 
   void archive(Archive& archive);  ///< saves or loads the state
 

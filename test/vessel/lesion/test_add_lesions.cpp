@@ -1,3 +1,4 @@
+#include "test/common/input_error_of.h"
 #include "vessel/lesion/add_lesions.h"
 
 #include <gtest/gtest.h>
@@ -279,15 +280,7 @@ TEST(Lesion, CanBeAddedBesideAnotherOne)
 std::string errorMessage(const Lesion& lesion)
 {
   Vessel vessel = tube();
-  try
-  {
-    addLesions(vessel, {lesion}, "scene.yaml");
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return inputErrorOf([&] { addLesions(vessel, {lesion}, "scene.yaml"); });
 }
 
 TEST(Lesion, CanBeSpecifiedByAPointInTheLumen)

@@ -130,9 +130,9 @@ void DriveCommands::restAt(const simulation::Simulation& simulation)
   updateRevision();
 }
 
-std::vector<simulation::HandCommand> DriveCommands::present(const simulation::Simulation& simulation)
+std::vector<drive::HandCommand> DriveCommands::present(const simulation::Simulation& simulation)
 {
-  std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, simulation.time());
+  std::vector<drive::HandCommand> commands = simulation::commandsAt(scene_, simulation.time());
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t k = 0; k < commands.size(); ++k)
     if (const drive::HandControl* control = hands_->control(k))
@@ -176,14 +176,14 @@ void DriveCommands::updateRevision()
   revision_ = revision;
 }
 
-const std::vector<simulation::HandCommand>& DriveCommands::next(const simulation::Simulation& simulation,
-                                                                const std::vector<simulation::HandCommand>* scripted,
-                                                                const robot::CommandFaults& faults)
+const std::vector<drive::HandCommand>& DriveCommands::next(const simulation::Simulation& simulation,
+                                                           const std::vector<drive::HandCommand>* scripted,
+                                                           const robot::CommandFaults& faults)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (player_)
     playFile(simulation.time());
-  const std::vector<simulation::HandCommand>& commands = hands_->next(simulation, scripted, &faults);
+  const std::vector<drive::HandCommand>& commands = hands_->next(simulation, scripted, &faults);
   watchGrips(simulation);
   updateRevision();
   return commands;
@@ -219,7 +219,7 @@ std::vector<drive::ControlState> DriveCommands::states()
   return states;
 }
 
-void DriveCommands::goals(const std::vector<simulation::HandCommand>& used, std::vector<simulation::HandCommand>& goals)
+void DriveCommands::goals(const std::vector<drive::HandCommand>& used, std::vector<drive::HandCommand>& goals)
 {
   goals = used;
   const std::lock_guard<std::mutex> lock(mutex_);

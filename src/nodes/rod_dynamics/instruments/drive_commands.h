@@ -36,9 +36,9 @@ public:
   /** Commands of the coming step, one per instrument.
    *  @param scripted commands of the scripted operator; null without one
    *  @param faults that act on these commands, of which the controls see nothing */
-  const std::vector<simulation::HandCommand>& next(const simulation::Simulation& simulation,
-                                                   const std::vector<simulation::HandCommand>* scripted,
-                                                   const robot::CommandFaults& faults);
+  const std::vector<drive::HandCommand>& next(const simulation::Simulation& simulation,
+                                              const std::vector<drive::HandCommand>* scripted,
+                                              const robot::CommandFaults& faults);
 
   /** Gives commands to instruments as a client, all of them or none. Rejections are counted.
    *  @return reason of the first refusal; empty if all were accepted */
@@ -51,7 +51,7 @@ public:
   void restAt(const simulation::Simulation& simulation);
 
   /** Commands at present, one per instrument, as in the last step. */
-  std::vector<simulation::HandCommand> present(const simulation::Simulation& simulation);
+  std::vector<drive::HandCommand> present(const simulation::Simulation& simulation);
 
   /** Continues the file of commands at a time [s]. */
   void playFrom(double time);
@@ -67,7 +67,7 @@ public:
 
   /** Goals of all instruments: of a move, else the last command.
    *  @param used commands of the last step, for the instruments that no client drives */
-  void goals(const std::vector<simulation::HandCommand>& used, std::vector<simulation::HandCommand>& goals);
+  void goals(const std::vector<drive::HandCommand>& used, std::vector<drive::HandCommand>& goals);
 
   /** Reports, one per instrument that clients drive. Callable from any thread. */
   std::vector<CommandReport> reports();

@@ -12,7 +12,7 @@ constexpr double kLeastTorquePeak = 5e-5;  ///< initial peak of the torque limit
 
 }  // namespace
 
-HandForceRenderer::HandForceRenderer(const std::vector<simulation::HandCommand>& present)
+HandForceRenderer::HandForceRenderer(const std::vector<drive::HandCommand>& present)
   : hands_(present.size()),
     force_limiters_(present.size(), simulation::ForceFaultLimiter{kLeastForcePeak}),
     torque_limiters_(present.size(), simulation::ForceFaultLimiter{kLeastTorquePeak})
@@ -22,7 +22,7 @@ HandForceRenderer::HandForceRenderer(const std::vector<simulation::HandCommand>&
 }
 
 const std::vector<RenderedHand>& HandForceRenderer::render(const simulation::Simulation& simulation,
-                                                           const std::vector<simulation::HandCommand>& used, double dt)
+                                                           const std::vector<drive::HandCommand>& used, double dt)
 {
   const double fade = dt / kRampTime;
   // A rejected step gives no information about the force.

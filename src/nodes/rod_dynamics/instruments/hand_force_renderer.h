@@ -11,7 +11,7 @@ namespace endovascular_sim::nodes
 /** Command that the last step used for one instrument, and the force and torque rendered to the hand. */
 struct RenderedHand
 {
-  simulation::HandCommand command;
+  drive::HandCommand command;
   double force = 0.0;   ///< positive against insertion [N]
   double torque = 0.0;  ///< positive against rotation [N·m]
 };
@@ -22,13 +22,13 @@ class HandForceRenderer
 {
 public:
   /** @param present commands before the first step, one per instrument */
-  explicit HandForceRenderer(const std::vector<simulation::HandCommand>& present);
+  explicit HandForceRenderer(const std::vector<drive::HandCommand>& present);
 
   /** Renders the forces after a step.
    *  @param used commands of the step, one per instrument
    *  @param dt duration of the step [s] */
   const std::vector<RenderedHand>& render(const simulation::Simulation& simulation,
-                                          const std::vector<simulation::HandCommand>& used, double dt);
+                                          const std::vector<drive::HandCommand>& used, double dt);
 
   /** Resets the forces to zero; the next steps approach the simulation's forces from there. */
   void reset();

@@ -114,7 +114,7 @@ void InstrumentPublisher::publishMeasured(const simulation::Simulation& simulati
 void InstrumentPublisher::publishSetpoint(std::size_t k, const RenderedHand& hand, double share, bool moves)
 {
   const Channel& channel = channels_[k];
-  const simulation::HandCommand& command = hand.command;
+  const drive::HandCommand& command = hand.command;
   const double rate = moves ? 1.0 / time_step_ : 0.0;
   joints_.header.stamp = now_;
   setJoints(channel.has_balloon, {command.insertion, command.rotation, command.pressure}, joints_.position,

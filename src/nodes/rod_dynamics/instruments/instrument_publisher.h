@@ -49,8 +49,8 @@ private:
   {
     ros::Publisher measured, setpoint, goal, tip, wall_force, state, reason;
     bool has_balloon = false;
-    simulation::HandState now, last;       ///< after the last step, and before it
-    simulation::HandCommand last_command;  ///< of the step before
+    simulation::HandState now, last;  ///< after the last step, and before it
+    drive::HandCommand last_command;  ///< of the step before
     std::optional<drive::OperatingState> published_state;
     std::string published_reason;
     std::uint64_t revision = 0;
@@ -74,7 +74,7 @@ private:
   sensor_msgs::JointState joints_;
   geometry_msgs::PoseStamped pose_;
   geometry_msgs::WrenchStamped wrench_;
-  std::vector<simulation::HandCommand> used_, goals_;
+  std::vector<drive::HandCommand> used_, goals_;
   std::vector<simulation::WallContact> contacts_;
 };
 

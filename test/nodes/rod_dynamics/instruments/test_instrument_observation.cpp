@@ -25,7 +25,7 @@ TEST(TipPose, TurnsByNinetyDegreesAboutTheTangentWithTheHandleInFreeSpace)
   const geometry_msgs::Pose begin = tipPose(simulation, 0);
   for (int k = 1; k <= 1000; ++k)
   {
-    simulation::HandCommand command;
+    drive::HandCommand command;
     command.insertion = 0.1;
     command.rotation = 0.5 * M_PI * k / 1000;
     simulation.step(command);
