@@ -2,9 +2,11 @@
 
 #include <signal.h>
 
+#include <optional>
 #include <string>
 
 #include <XmlRpcClient.h>
+#include <gtest/gtest.h>
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/ros.h>
@@ -17,6 +19,17 @@ constexpr double kSlowness = 10.0;  ///< factor of all time limits
 #else
 constexpr double kSlowness = 1.0;  ///< factor of all time limits
 #endif
+
+/** Thread that calls the callbacks of a program of tests; to be added with testing::AddGlobalTestEnvironment(). */
+class CallbackThread : public testing::Environment
+{
+public:
+  void SetUp() override { spinner_.emplace(1).start(); }
+  void TearDown() override { spinner_.reset(); }
+
+private:
+  std::optional<ros::AsyncSpinner> spinner_;  ///< none before ros::init()
+};
 
 /** Waits until a condition holds. @return false when it did not hold within the time [s], times kSlowness */
 template <typename Condition>

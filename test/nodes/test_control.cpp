@@ -191,14 +191,7 @@ TEST_F(Control, F_EveryRunHasARecordingThatReplays)
   EXPECT_TRUE(std::filesystem::exists(folder.parent_path() / "run_4/metrics.json")) << "with the vessel";
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_control");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

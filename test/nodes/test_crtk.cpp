@@ -4,59 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <crtk_msgs/OperatingState.h>
-#include <crtk_msgs/StringStamped.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
-#include <sensor_msgs/JointState.h>
-#include <std_msgs/Empty.h>
 
 #include "contact/detector.h"
-#include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/SessionSample.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/runtime/scene_parameters.h"
 #include "scene/scene_vessel.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
-#include "test/nodes/graph_testing.h"
-#include "test/nodes/topic_observer.h"
+#include "test/nodes/crtk_client.h"
 
 namespace endovascular_sim
 {
 namespace
 {
 
-using Joints = sensor_msgs::JointState;
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Joints positions(std::vector<double> values)
-{
-  Joints message;
-  message.position = std::move(values);
-  return message;
-}
-
-Joints velocities(std::vector<double> values)
-{
-  Joints message;
-  message.velocity = std::move(values);
-  return message;
-}
 
 Joints efforts(std::vector<double> values)
 {
@@ -65,65 +39,19 @@ Joints efforts(std::vector<double> values)
   return message;
 }
 
-/** Client of the wire that publishes and listens as crtk_python_client does, and records every step. */
-class Client
+/** Client of the wire. */
+class Client : public CrtkClient
 {
 public:
-  Client()
+  Client() : CrtkClient("instruments/wire/", "rod_dynamics")
   {
-    for (const char* input : {"servo_jp", "servo_jr", "servo_jv", "servo_jf", "move_jp", "move_jr"})
-      inputs_[input] = node_.advertise<Joints>(kWire + std::string(input), 10);
-    for (const char* topic : {"hold", "free"})
-      words_[topic] = node_.advertise<std_msgs::Empty>(kWire + std::string(topic), 10);
-    command_ = node_.advertise<crtk_msgs::StringStamped>(kWire + std::string("state_command"), 10, true);
-    listen<crtk_msgs::OperatingState>("operating_state", [this](const auto& state) { receive(state); });
-    listen<crtk_msgs::StringStamped>("state_reason", [this](const auto& reason) { reason_ = reason.string; });
-    listen<Joints>("measured_js", [this](const auto& joints) { measured_[joints.header.stamp.toNSec()] = joints; });
-    listen<Joints>("setpoint_js", [this](const auto& joints) { setpoint_ = joints; });
-    listen<Joints>("goal_js", [this](const auto& joints) { goal_ = joints; });
-    listen<geometry_msgs::PoseStamped>("measured_cp", [this](const auto& pose) { tip_ = pose; });
-    listen<geometry_msgs::WrenchStamped>("measured_cf", [this](const auto& wrench) { wall_force_ = wrench; });
-    observer_.subscribe<SessionSample>(nodes::names::kSessionSample, [](const auto&) {});
-    observer_.subscribe<diagnostic_msgs::DiagnosticArray>(nodes::names::kDiagnostics, [this](const auto& array)
-                                                          { takeDiagnostics(array, "rod_dynamics", diagnostics_); });
-    observer_.subscribe<DriveApplied>(nodes::names::kDriveApplied,
-                                      [this](const auto& step) { steps_[step.step] = step; });
-  }
-
-  /** Publishes a command. */
-  void send(const std::string& input, const Joints& joints) { inputs_.at(input).publish(joints); }
-
-  /** Publishes a command without values to its own topic. */
-  void word(const std::string& topic) { words_.at(topic).publish(std_msgs::Empty()); }
-
-  void command(const std::string& word)
-  {
-    crtk_msgs::StringStamped message;
-    message.header.stamp = ros::Time::now();
-    message.string = word;
-    command_.publish(message);
-  }
-
-  /** Simulates for a time. @param each called about every 5 ms [s] */
-  bool run(
-      double seconds, const std::function<void()>& each = [] {})
-  {
-    const double end = time() + seconds;
-    return waitUntil(60.0,
-                     [&]
-                     {
-                       each();
-                       return time() >= end;
-                     });
+    recorder_.subscribe<SessionSample>(nodes::names::kSessionSample, [](const auto&) {});
   }
 
   /** Brings the instrument to 30 mm, enabled, homed and without a driver. The fingers may have slipped before. */
   bool reset()
   {
-    run(0.25);
-    for (const char* word : {"resume", "enable", "home"})
-      command(word);
-    if (!waitUntil(30.0, [this] { return state().state == "ENABLED" && state().is_homed && !state().is_busy; }))
+    if (!enable())
       return false;
     const Joints commanded = setpoint();
     if (commanded.position.empty() || !std::isfinite(insertion()))
@@ -132,62 +60,16 @@ public:
     return waitUntil(60.0, [this] { return std::abs(insertion() - kReset) < 1e-3 && !state().is_busy; }) && run(0.25);
   }
 
-  double time() const
-  {
-    const std::lock_guard<std::mutex> lock(observer_.mutex());
-    return steps_.empty() ? 0.0 : 1e-3 * static_cast<double>(steps_.rbegin()->first + 1);
-  }
-  crtk_msgs::OperatingState state() const { return observer_.copy(state_); }
-  std::string reason() const { return observer_.copy(reason_); }
-  std::map<std::uint64_t, DriveApplied> steps() const { return observer_.copy(steps_); }
-  std::map<std::uint64_t, Joints> measurements() const { return observer_.copy(measured_); }
-  Joints setpoint() const { return observer_.copy(setpoint_); }
-  Joints goal() const { return observer_.copy(goal_); }
-  geometry_msgs::PoseStamped tip() const { return observer_.copy(tip_); }
-  geometry_msgs::WrenchStamped wallForce() const { return observer_.copy(wall_force_); }
-  std::uint64_t busyStates() const { return observer_.copy(busy_states_); }
-  std::string diagnostics() const { return observer_.copy(diagnostics_); }
-
-  Joints measured() const
-  {
-    const std::lock_guard<std::mutex> lock(observer_.mutex());
-    return measured_.empty() ? Joints() : measured_.rbegin()->second;
-  }
-  double insertion() const
-  {
-    const Joints joints = measured();
-    return joints.position.empty() ? kNan : joints.position[0];
-  }
+  std::map<std::uint64_t, Joints> measurements() const { return all("instruments/wire/measured_js"); }
+  Joints measured() const { return newest("instruments/wire/measured_js"); }
+  Joints setpoint() const { return newest("instruments/wire/setpoint_js"); }
+  Joints goal() const { return newest("instruments/wire/goal_js"); }
+  double insertion() const { return position("instruments/wire/measured_js", 0); }
 
 private:
-  static constexpr auto kWire = "instruments/wire/";
   static constexpr double kReset = 0.03;  ///< insertion after reset() [m]
 
-  template <typename Message>
-  void listen(const std::string& topic, std::function<void(const Message&)> take)
-  {
-    observer_.subscribe<Message>(kWire + topic, std::move(take));
-  }
-
-  void receive(const crtk_msgs::OperatingState& state)
-  {
-    state_ = state;
-    busy_states_ += state.is_busy;
-  }
-
-  ros::NodeHandle node_;
-  std::map<std::string, ros::Publisher> inputs_;
-  std::map<std::string, ros::Publisher> words_;
-  ros::Publisher command_;
-  crtk_msgs::OperatingState state_;
-  std::uint64_t busy_states_ = 0;
-  std::string reason_, diagnostics_;
-  std::map<std::uint64_t, DriveApplied> steps_;
-  std::map<std::uint64_t, Joints> measured_;  ///< by the stamp [ns]
-  Joints setpoint_, goal_;
-  geometry_msgs::PoseStamped tip_;
-  geometry_msgs::WrenchStamped wall_force_;
-  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
+  TopicObserver recorder_;
 };
 
 /** Process that publishes to a topic of the wire at 50 Hz, as another client. */
@@ -223,11 +105,7 @@ class Crtk : public testing::Test
 protected:
   static void SetUpTestSuite() { client_ = std::make_unique<Client>(); }
   static void TearDownTestSuite() { client_.reset(); }
-  void SetUp() override
-  {
-    ASSERT_TRUE(waitUntil(90.0, [] { return client_->time() > 0.1; })) << "the simulation runs";
-    ASSERT_TRUE(client_->reset()) << client_->state().state << " " << client_->reason();
-  }
+  void SetUp() override { ASSERT_TRUE(client_->reset()) << client_->state().state << " " << client_->reason(); }
 
   static std::unique_ptr<Client> client_;
 };
@@ -472,10 +350,3 @@ TEST_F(Crtk, Z_AReplayEqualsEveryStepAndMeasuredIsTheSolversPosition)
 
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "crtk_client");
-  return RUN_ALL_TESTS();
-}

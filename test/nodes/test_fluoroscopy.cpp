@@ -449,11 +449,3 @@ TEST(ImageConversions, AViewRetainsQuantitiesThatAreZero)
 
 }  // namespace
 }  // namespace endovascular_sim::nodes
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_fluoroscopy");
-  const ros::NodeHandle keep_alive;  // destroying the last handle would shut the node down between two tests
-  return RUN_ALL_TESTS();
-}

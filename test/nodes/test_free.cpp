@@ -36,14 +36,7 @@ TEST(Free, TheTrajectoryIsThatOfSimulateAndTheRecordingIsComplete)
             hashOfSimulate(data + "/wire_of_a_robot.yaml", data + "/commands_of_a_robot.csv", kSeconds));
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_free");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

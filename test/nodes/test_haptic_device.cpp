@@ -181,10 +181,3 @@ TEST(HapticDeviceNode, ExchangesMotionAndForceFadesOnSilenceAndRecoversFromAnUnp
 }
 
 }  // namespace
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_haptic_device");
-  return RUN_ALL_TESTS();
-}

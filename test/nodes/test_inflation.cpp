@@ -106,7 +106,7 @@ TEST_F(Inflation, A_GraphEqualsTheOfflineSimulationWhileABalloonMovesTheWall)
   {
     const auto known = steps.find(simulation.steps());
     const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
-    const std::vector<simulation::HandCommand> commands = simulation::commandsAt(scene_, end);
+    const std::vector<drive::HandCommand> commands = simulation::commandsAt(scene_, end);
     source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
     if (known != steps.end())
     {
@@ -133,14 +133,7 @@ TEST_F(Inflation, B_LossOfTheVesselServerEndsTheSimulation)
   EXPECT_TRUE(waitUntil(10.0, [this] { return listener_->operatingState() == "DISABLED"; }));
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_inflation");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

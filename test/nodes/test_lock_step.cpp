@@ -156,8 +156,8 @@ TEST_F(LockStep, A_GraphEqualsTheOfflineSimulationAtEveryStep)
   {
     const auto known = steps.find(simulation.steps());
     const double end = static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step;
-    simulation::HandCommand command{scene_.instruments.front().drive.insertionAt(end),
-                                    scene_.instruments.front().drive.rotationAt(end)};
+    drive::HandCommand command{scene_.instruments.front().drive.insertionAt(end),
+                               scene_.instruments.front().drive.rotationAt(end)};
     source.setFirstStalePass(known != steps.end() ? known->second.first_stale_pass : contact::kNoStalePass);
     if (known != steps.end())
     {
@@ -205,14 +205,7 @@ TEST_F(LockStep, B_LossOfTheContactNodePausesWithoutForceUntilItsRestart)
 #endif
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_lock_step");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

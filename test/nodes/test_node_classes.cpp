@@ -153,15 +153,7 @@ TEST(NodeClasses, FluoroscopyIsConstructed)
   EXPECT_NO_THROW(FluoroscopyNode(node, ros::NodeHandle("~"), scene, [] { return SchedulingGrant(); }));
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim::nodes
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_node_classes");
-  const ros::NodeHandle keep_alive;
-  ros::AsyncSpinner spinner(1);  // as in the programs of the nodes
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

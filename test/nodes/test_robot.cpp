@@ -1,194 +1,63 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include <crtk_msgs/OperatingState.h>
-#include <crtk_msgs/StringStamped.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
-#include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "endovascular_sim/DriveApplied.h"
-#include "test/nodes/graph_testing.h"
-#include "test/nodes/topic_observer.h"
+#include "test/nodes/crtk_client.h"
 
 namespace endovascular_sim
 {
 namespace
 {
 
-using Joints = sensor_msgs::JointState;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSame = 1e-9;
 // The robot of test/data/robot_in_tube.yaml.
 constexpr double kCatheterOffset = 0.01;
 constexpr double kRollerRatio = 0.02, kRollerOffset = 0.03, kRollerPlay = 1e-3;
 constexpr double kChuckRatio = 2.0, kChuckPlay = 0.1;
 
-Joints positions(std::vector<double> values, std::vector<std::string> names = {})
-{
-  Joints message;
-  message.name = std::move(names);
-  message.position = std::move(values);
-  return message;
-}
-
-Joints velocities(std::vector<double> values, std::vector<std::string> names = {})
-{
-  Joints message;
-  message.name = std::move(names);
-  message.velocity = std::move(values);
-  return message;
-}
-
-/** Client of the robot, which listens to its instruments too. */
-class Client
-{
-public:
-  Client()
-  {
-    for (const char* input : {"servo_jp", "servo_jr", "servo_jv", "servo_jf", "move_jp", "move_jr"})
-      inputs_[input] = node_.advertise<Joints>("robot/" + std::string(input), 10);
-    command_ = node_.advertise<crtk_msgs::StringStamped>("robot/state_command", 10, true);
-    for (const char* topic :
-         {"robot/measured_js", "robot/setpoint_js", "robot/goal_js", "robot/joint_states",
-          "instruments/wire/measured_js", "instruments/catheter/measured_js", "instruments/wire/setpoint_js"})
-      observer_.subscribe<Joints>(
-          topic, [this, topic](const Joints& joints) { joints_[topic][joints.header.stamp.toNSec()] = joints; });
-    observer_.subscribe<crtk_msgs::OperatingState>("robot/operating_state",
-                                                   [this](const auto& state)
-                                                   {
-                                                     state_ = state;
-                                                     busy_states_ += state.is_busy;
-                                                   });
-    observer_.subscribe<crtk_msgs::StringStamped>("robot/state_reason",
-                                                  [this](const auto& reason) { reason_ = reason.string; });
-    observer_.subscribe<geometry_msgs::PoseStamped>("robot/measured_cp", [this](const auto& pose) { tip_ = pose; });
-    observer_.subscribe<geometry_msgs::WrenchStamped>("robot/measured_cf",
-                                                      [this](const auto& force) { wall_force_ = force; });
-    observer_.subscribe<tf2_msgs::TFMessage>("/tf_static",
-                                             [this](const auto& message)
-                                             {
-                                               for (const auto& transform : message.transforms)
-                                                 parents_[transform.child_frame_id] = transform.header.frame_id;
-                                             });
-    observer_.subscribe<diagnostic_msgs::DiagnosticArray>(
-        "/diagnostics", [this](const auto& array) { takeDiagnostics(array, "robot", diagnostics_); });
-    observer_.subscribe<DriveApplied>("drive/applied", [this](const auto& step) { step_ = step.step; });
-  }
-
-  void send(const std::string& input, const Joints& joints) { inputs_.at(input).publish(joints); }
-
-  void command(const std::string& word)
-  {
-    crtk_msgs::StringStamped message;
-    message.string = word;
-    command_.publish(message);
-  }
-
-  /** Simulates for a time. @param each called about every 5 ms [s] */
-  bool run(
-      double seconds, const std::function<void()>& each = [] {})
-  {
-    const double end = time() + seconds;
-    return waitUntil(60.0,
-                     [&]
-                     {
-                       each();
-                       return time() >= end;
-                     });
-  }
-
-  /** Sends a move and waits for its end. */
-  bool move(const Joints& joints)
-  {
-    const std::uint64_t busy = observer_.copy(busy_states_);
-    send("move_jp", joints);
-    return waitUntil(10.0, [&] { return observer_.copy(busy_states_) > busy; }) &&
-           waitUntil(60.0, [this] { return !state().is_busy; }) && run(0.05);
-  }
-
-  double time() const { return 1e-3 * static_cast<double>(observer_.copy(step_)); }
-  crtk_msgs::OperatingState state() const { return observer_.copy(state_); }
-  std::string reason() const { return observer_.copy(reason_); }
-  std::string diagnostics() const { return observer_.copy(diagnostics_); }
-  geometry_msgs::PoseStamped tip() const { return observer_.copy(tip_); }
-  geometry_msgs::WrenchStamped wallForce() const { return observer_.copy(wall_force_); }
-  std::map<std::string, std::string> parents() const { return observer_.copy(parents_); }
-  std::map<std::uint64_t, Joints> all(const std::string& topic) const
-  {
-    const std::lock_guard<std::mutex> lock(observer_.mutex());
-    return joints_.count(topic) > 0 ? joints_.at(topic) : std::map<std::uint64_t, Joints>();
-  }
-  Joints newest(const std::string& topic) const
-  {
-    const std::map<std::uint64_t, Joints> messages = all(topic);
-    return messages.empty() ? Joints() : messages.rbegin()->second;
-  }
-  /** Newest position of a joint. */
-  double position(const std::string& topic, std::size_t joint) const
-  {
-    const Joints joints = newest(topic);
-    return joint < joints.position.size() ? joints.position[joint] : kNan;
-  }
-
-private:
-  ros::NodeHandle node_;
-  std::map<std::string, ros::Publisher> inputs_;
-  ros::Publisher command_;
-  std::map<std::string, std::map<std::uint64_t, Joints>> joints_;  ///< by topic and stamp [ns]
-  std::map<std::string, std::string> parents_;                     ///< of the static frames
-  crtk_msgs::OperatingState state_;
-  std::uint64_t busy_states_ = 0;
-  std::uint64_t step_ = 0;
-  std::string reason_, diagnostics_;
-  geometry_msgs::PoseStamped tip_;
-  geometry_msgs::WrenchStamped wall_force_;
-  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
-};
-
 class Robot : public testing::Test
 {
 protected:
-  static void SetUpTestSuite() { client_ = std::make_unique<Client>(); }
+  static void SetUpTestSuite()
+  {
+    client_ = std::make_unique<CrtkClient>(
+        "robot/", "robot",
+        std::vector<std::string>{"robot/joint_states", "instruments/wire/measured_js", "instruments/wire/setpoint_js",
+                                 "instruments/catheter/measured_js"});
+  }
   static void TearDownTestSuite() { client_.reset(); }
   void SetUp() override
   {
-    ASSERT_TRUE(waitUntil(90.0, [] { return client_->time() > 0.1; })) << "the simulation runs";
-    for (const char* word : {"resume", "enable", "home"})
-      client_->command(word);
-    ASSERT_TRUE(waitUntil(30.0,
-                          []
-                          {
-                            const crtk_msgs::OperatingState state = client_->state();
-                            return state.state == "ENABLED" && state.is_homed && !state.is_busy;
-                          }))
-        << client_->state().state << " " << client_->reason();
+    ASSERT_TRUE(client_->enable()) << client_->state().state << " " << client_->reason();
     ASSERT_TRUE(client_->run(0.3)) << "no client drives";
   }
 
-  static std::unique_ptr<Client> client_;
+  static std::unique_ptr<CrtkClient> client_;
 };
 
-std::unique_ptr<Client> Robot::client_;
+std::unique_ptr<CrtkClient> Robot::client_;
 
 TEST_F(Robot, IsDescribedAndStandsAtTheIntroducer)
 {
   std::string description;
   ASSERT_TRUE(ros::NodeHandle().getParam("robot_description", description));
   EXPECT_NE(description.find("<robot name=\"catheter_robot\">"), std::string::npos);
-  EXPECT_TRUE(waitUntil(10.0, [] { return client_->parents()["robot_base"] == "introducer"; }));
+  std::map<std::string, std::string> parents;  // of the static frames
+  TopicObserver frames;
+  frames.subscribe<tf2_msgs::TFMessage>("/tf_static",
+                                        [&parents](const auto& message)
+                                        {
+                                          for (const auto& transform : message.transforms)
+                                            parents[transform.child_frame_id] = transform.header.frame_id;
+                                        });
+  EXPECT_TRUE(waitUntil(10.0, [&] { return frames.copy(parents)["robot_base"] == "introducer"; }));
 }
 
 TEST_F(Robot, AnUnnamedStreamMovesAllInstrumentsThroughRatioAndBacklash)
@@ -275,7 +144,7 @@ TEST_F(Robot, NonsenseIsIgnored)
   ASSERT_TRUE(client_->run(0.5,
                            []
                            {
-                             for (const double value : {kNan, HUGE_VAL, -HUGE_VAL})
+                             for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL})
                                for (const char* input : {"servo_jp", "servo_jr", "move_jp", "move_jr"})
                                  client_->send(input, positions({value, 0.1}));
                              client_->send("servo_jp", positions({0.1, 0.1, 0.1, 0.1, 0.1}));
@@ -353,10 +222,3 @@ TEST_F(Robot, Z_MeasuredJointsAreThoseOfTheInstruments)
 
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "robot_client");
-  return RUN_ALL_TESTS();
-}

@@ -340,14 +340,7 @@ TEST_F(SensorsOfTheGraph, D_TheRecordingReplaysWithoutItsFaultsAndHoldsTheReadin
   EXPECT_EQ(linesOfBag(first / "run_2" / "session.bag"), second_run_);
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_sensors");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

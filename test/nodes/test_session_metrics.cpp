@@ -183,11 +183,3 @@ TEST_F(RecordedSession, OfAProcedureHasTheMetricsOfTheOfflineSimulation)
 
 }  // namespace
 }  // namespace endovascular_sim::nodes
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_session_metrics");
-  testing::InitGoogleTest(&argc, argv);
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

@@ -276,14 +276,7 @@ TEST_F(Stepped, I_EveryRunHasARecordingThatReplays)
   EXPECT_TRUE(client_->step(10).success) << "without a recorder";
 }
 
+const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
+
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  ros::init(argc, argv, "test_stepped");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -164,11 +164,3 @@ TEST(VesselServer, ExitsWithCodeOneWhenTheMeshIsInvalid)
 
 }  // namespace
 }  // namespace endovascular_sim::nodes
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_vessel_server");
-  ros::NodeHandle node;
-  return RUN_ALL_TESTS();
-}

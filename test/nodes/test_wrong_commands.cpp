@@ -386,10 +386,3 @@ TEST_F(WrongCommands, AfterSilenceAreApproachedSlowlyAndCorrectedByTheNextOne)
 
 }  // namespace
 }  // namespace endovascular_sim
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "robot");
-  return RUN_ALL_TESTS();
-}

@@ -72,11 +72,3 @@ TEST(XRayPatient, AFileThatIsNoVolumeIsReportedAndGivesNoImage)
 
 }  // namespace
 }  // namespace endovascular_sim::nodes
-
-int main(int argc, char** argv)
-{
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_x_ray_patient");
-  const ros::NodeHandle node;
-  return RUN_ALL_TESTS();
-}
