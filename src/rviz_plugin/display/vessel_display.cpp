@@ -8,7 +8,6 @@
 #include <OgreSceneNode.h>
 #include <OgreViewport.h>
 #include <rviz/display_context.h>
-#include <rviz/ogre_helpers/movable_text.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/enum_property.h>
@@ -30,12 +29,13 @@ namespace
 
 constexpr int kLegendLeft = 198, kLegendBottom = 10;            // beside the legend of the wire [pixels]
 constexpr double kLegendsWidth = 388.0, kLegendsHeight = 74.0;  ///< of both legends with their rim [pixels]
-constexpr Ogre::uint8 kNamesQueue = Ogre::RENDER_QUEUE_MAIN + 10;
-constexpr double kNamesPeriod = 0.5;     ///< shortest time between two drawings of the names [s]
+constexpr double kNamesPeriod = 0.25;    ///< shortest time between two placements of the names [s]
 constexpr float kGlow = 0.3F;            ///< of the far wall, relative to its colour
 constexpr double kMiddleDistance = 0.2;  ///< of the vessel from the camera [m]
 constexpr double kMotionOfNames = 12.0;  ///< motion of the picture after which names are placed anew [pixels]
 constexpr double kShareOfNames = 0.05;   ///< change of the distance after which they are placed anew, relative
+constexpr double kSmallMotion = 0.1;     ///< motion of the picture after which names are drawn anew [pixels]
+constexpr double kSmallShare = 1e-4;     ///< change of the distance after which they are drawn anew, relative
 constexpr double kCutawayPeriod = 0.2;   ///< shortest time between two cutaways [s]
 constexpr double kCutawayShare = 0.1;    ///< motion of the tip that moves the cutaway, relative to its radius
 
@@ -53,6 +53,18 @@ visualization::Colour toColour(const QColor& colour)
 Eigen::Vector3d toEigen(const Ogre::Vector3& vector)
 {
   return {vector.x, vector.y, vector.z};
+}
+
+/** True if a view differs from another one.
+ *  @param motion of a point in the middle distance, in the picture [pixels]
+ *  @param share change of its distance, relative */
+bool hasMoved(const visualization::PictureView& view, const visualization::PictureView& from, double motion,
+              double share)
+{
+  const Eigen::Vector3d point = from.eye + kMiddleDistance * from.forward;
+  return view.width != from.width || view.height != from.height || view.depth(point) <= 0.0 ||
+         view.project(point).norm() > motion || std::abs(view.depth(point) / kMiddleDistance - 1.0) > share ||
+         from.focal * (view.up - from.up).norm() > motion;
 }
 
 }  // namespace
@@ -101,11 +113,7 @@ VesselDisplay::VesselDisplay()
   name_height_->setMin(4.0F);
 }
 
-VesselDisplay::~VesselDisplay()
-{
-  for (Ogre::SceneNode* node : name_nodes_)
-    scene_manager_->destroySceneNode(node);
-}
+VesselDisplay::~VesselDisplay() = default;
 
 void VesselDisplay::onInitialize()
 {
@@ -120,6 +128,7 @@ void VesselDisplay::onInitialize()
                 std::make_unique<SurfaceObject>(scene_manager_, scene_node_, DrawingOrder::kInside, DrawnFaces::kBoth);
             heat_->setFlat();
             legend_ = std::make_unique<PictureOverlay>();
+            name_picture_ = std::make_unique<PictureOverlay>();
           });
 }
 
@@ -201,7 +210,7 @@ void VesselDisplay::redraw()
   is_mesh_new_ = is_heat_new_ = are_names_new_ = true;
 }
 
-std::optional<PictureView> VesselDisplay::pictureView() const
+std::optional<visualization::PictureView> VesselDisplay::pictureView() const
 {
   const rviz::ViewController* controller =
       context_->getViewManager() ? context_->getViewManager()->getCurrent() : nullptr;
@@ -210,7 +219,7 @@ std::optional<PictureView> VesselDisplay::pictureView() const
     return std::nullopt;
   const auto axis = [&](const Ogre::Vector3& direction)
   { return toEigen(scene_node_->getOrientation().Inverse() * direction).normalized().eval(); };
-  PictureView view;
+  visualization::PictureView view;
   view.eye = toEigen(scene_node_->convertWorldToLocalPosition(camera->getDerivedPosition()));
   view.right = axis(camera->getDerivedRight());
   view.up = axis(camera->getDerivedUp());
@@ -224,21 +233,23 @@ std::optional<PictureView> VesselDisplay::pictureView() const
   view.legend_width = kLegendsWidth;
   view.legend_height = kLegendsHeight;
   view.focal = 0.5 * view.height / std::tan(0.5 * camera->getFOVy().valueRadians());
+  if (has_tip_)
+    view.reach = reachOfNames(tip_, view);
   return view;
 }
 
-bool VesselDisplay::hasCameraMoved() const
+void VesselDisplay::followCamera()
 {
-  if (!centreline_message_ || (ros::WallTime::now() - names_drawn_).toSec() < kNamesPeriod)
-    return false;
-  const std::optional<PictureView> view = pictureView();
+  if (names_.empty() && !centreline_message_)
+    return;
+  const std::optional<visualization::PictureView> view = pictureView();
   if (!view)
-    return false;
-  // Motion of a point in the middle distance, in the picture.
-  const Eigen::Vector3d point = named_in_.eye + kMiddleDistance * named_in_.forward;
-  return view->width != named_in_.width || view->height != named_in_.height || view->depth(point) <= 0.0 ||
-         view->project(point).norm() > kMotionOfNames ||
-         std::abs(view->depth(point) / kMiddleDistance - 1.0) > kShareOfNames;
+    return;
+  if ((ros::WallTime::now() - names_placed_).toSec() > kNamesPeriod &&
+      hasMoved(*view, placed_in_, kMotionOfNames, kShareOfNames))
+    are_names_new_ = true;
+  else if (!names_.empty() && hasMoved(*view, drawn_in_, kSmallMotion, kSmallShare))
+    drawNames(*view);
 }
 
 bool VesselDisplay::isCutawayDue() const
@@ -254,7 +265,7 @@ void VesselDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
   guarded(*this,
           [this]
           {
-            are_names_new_ = are_names_new_ || hasCameraMoved();
+            followCamera();
             if (is_mesh_new_ || is_heat_new_ || are_names_new_)
               draw();
             else if (near_wall_ && mesh_message_ && isCutawayDue())
@@ -276,7 +287,7 @@ void VesselDisplay::draw()
   if (is_heat_new)
     drawHeat();
   if (are_names_new)
-    drawNames();
+    placeNames();
   drawLegend();
   context_->queueRender();
 }
@@ -329,34 +340,34 @@ void VesselDisplay::drawHeat()
   heat_->update(drawing_.heat(), drawing_.heat().triangles);
 }
 
-void VesselDisplay::drawNames()
+NameStyle VesselDisplay::nameStyle() const
 {
-  for (Ogre::SceneNode* node : name_nodes_)
+  return {name_colour_->getColor(), static_cast<int>(std::lround(name_height_->getFloat()))};
+}
+
+void VesselDisplay::placeNames()
+{
+  const std::optional<visualization::PictureView> view = pictureView();
+  if (!isEnabled() || !centreline_message_ || !shows_names_->getBool() || !view)
   {
-    node->detachAllObjects();
-    scene_manager_->destroySceneNode(node);
-  }
-  name_nodes_.clear();
-  names_.clear();
-  const std::optional<PictureView> view = pictureView();
-  if (!centreline_message_ || !shows_names_->getBool() || !view)
+    names_.clear();
+    name_picture_->hide();
     return;
-  names_drawn_ = ros::WallTime::now();
-  named_in_ = *view;
-  for (const BranchName& name : branchNames(*centreline_message_, *view, name_height_->getFloat()))
-  {
-    auto text = std::make_unique<rviz::MovableText>(name.text, "Liberation Sans", static_cast<float>(name.height),
-                                                    name_colour_->getOgreColor());
-    text->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_CENTER);
-    text->showOnTop();
-    text->setRenderQueueGroup(kNamesQueue);  // after the near wall
-    Ogre::SceneNode* node = scene_node_->createChildSceneNode(Ogre::Vector3(static_cast<float>(name.position.x()),
-                                                                            static_cast<float>(name.position.y()),
-                                                                            static_cast<float>(name.position.z())));
-    node->attachObject(text.get());
-    name_nodes_.push_back(node);
-    names_.push_back(std::move(text));
   }
+  const NameStyle style = nameStyle();
+  names_ = visualization::placeNames(
+      branchesToName(*centreline_message_, [&](const std::string& text) { return nameSize(text, style); }), *view,
+      names_);
+  names_placed_ = ros::WallTime::now();
+  placed_in_ = *view;
+  drawNames(*view);
+}
+
+void VesselDisplay::drawNames(const visualization::PictureView& view)
+{
+  name_picture_->show(namePicture(names_, view, nameStyle()), 0, 0);
+  drawn_in_ = view;
+  context_->queueRender();
 }
 
 void VesselDisplay::drawLegend()

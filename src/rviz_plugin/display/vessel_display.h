@@ -16,6 +16,7 @@
 #include "rviz_plugin/display/surface_object.h"
 #include "rviz_plugin/model/branch_names.h"
 #include "rviz_plugin/model/vessel_drawing.h"
+#include "rviz_plugin/widget/name_picture.h"
 
 namespace rviz
 {
@@ -23,7 +24,6 @@ class BoolProperty;
 class ColorProperty;
 class EnumProperty;
 class FloatProperty;
-class MovableText;
 class RosTopicProperty;
 }  // namespace rviz
 
@@ -58,12 +58,14 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   void drawWall();
   void drawNearWall();
   void drawHeat();
-  void drawNames();
+  void placeNames();
+  void drawNames(const visualization::PictureView& view);
+  void followCamera();  ///< moves the names with the camera
+  NameStyle nameStyle() const;
   void drawLegend();
   void receiveWire(const RodStateVisual& message);
   bool isCutawayDue() const;
-  bool hasCameraMoved() const;
-  std::optional<PictureView> pictureView() const;
+  std::optional<visualization::PictureView> pictureView() const;
 
   rviz::RosTopicProperty *mesh_topic_, *centreline_topic_, *force_topic_, *wire_topic_;
   rviz::ColorProperty *colour_, *name_colour_;
@@ -79,14 +81,13 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();     ///< of the newest message [m]
   Eigen::Vector3d cut_at_ = Eigen::Vector3d::Zero();  ///< centre of the drawn cutaway [m]
   bool has_tip_ = false, is_cut_ = false;
-  ros::WallTime last_cut_, names_drawn_;
-  PictureView named_in_;  ///< view for which the names were placed
-  QString legend_of_;     ///< title and scale of the shown legend; empty: none
+  ros::WallTime last_cut_, names_placed_;
+  std::vector<visualization::PlacedName> names_;
+  visualization::PictureView placed_in_, drawn_in_;  ///< views for which the names were placed, and drawn
+  QString legend_of_;                                ///< title and scale of the shown legend; empty: none
 
   std::unique_ptr<SurfaceObject> far_wall_, near_wall_, heat_;
-  std::vector<std::unique_ptr<rviz::MovableText>> names_;
-  std::vector<Ogre::SceneNode*> name_nodes_;
-  std::unique_ptr<PictureOverlay> legend_;
+  std::unique_ptr<PictureOverlay> legend_, name_picture_;
   ros::Subscriber mesh_subscriber_, centreline_subscriber_, force_subscriber_, wire_subscriber_;
 };
 

@@ -49,8 +49,8 @@ protected:
     static int count = 1;
     static char name[] = "test_rviz_plugin";
     static char* arguments[] = {name, nullptr};
-    static auto* application = new QApplication(count, arguments);
-    (void)application;
+    if (QApplication::instance() == nullptr)
+      new QApplication(count, arguments);  // lives as long as the program
   }
 
   SessionWidgetTest()
