@@ -24,14 +24,14 @@ def run(*command, seconds=20, **options):
 
 
 class RvizSession:
-    def __init__(self, folder, launch, *arguments):
+    def __init__(self, folder, launch, *arguments, screen="1280x800"):
         self.folder, self.results = folder, folder + "/results"
         self.state = self.step = self.progress = None
         with socket.socket() as free:
             free.bind(("localhost", 0))
             port = free.getsockname()[1]
         read, write = os.pipe()
-        self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+        self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", screen + "x24", "-nolisten", "tcp"],
                                        pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as pipe:

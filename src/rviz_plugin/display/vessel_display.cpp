@@ -19,6 +19,7 @@
 
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/display/copied_config.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
 
@@ -129,6 +130,7 @@ void VesselDisplay::onInitialize()
             heat_->setFlat();
             legend_ = std::make_unique<PictureOverlay>();
             name_picture_ = std::make_unique<PictureOverlay>();
+            closeWithoutQuestion(*context_);
           });
 }
 
