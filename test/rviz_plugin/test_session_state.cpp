@@ -44,6 +44,30 @@ TEST(PanelTexts, ShowTheChosenInstrument)
   EXPECT_EQ(panelTexts(running(), 1).pressure, "8.0 atm");
 }
 
+TEST(PanelTexts, KeepThePeakOfTheForce)
+{
+  SessionState state = running();
+  state.peak_force = {4.0};
+  EXPECT_EQ(panelTexts(state, 0).gauge, 40);
+  EXPECT_EQ(panelTexts(state, 0).peak, 80);
+  state.wire.hand_force[0] = 4.5;
+  EXPECT_EQ(panelTexts(state, 0).peak, 90) << "the present force is newer than the peak";
+  EXPECT_EQ(panelTexts(state, 1).peak, 0);
+}
+
+TEST(PanelTexts, DescribeTheBalloonByItsChart)
+{
+  SessionState state = running();
+  instrument::Balloon& balloon = state.scene.instruments[1].balloon;
+  balloon.folded_diameter = 1e-3;
+  balloon.compliance = {{8.0 * 101325.0, 3.0e-3}, {16.0 * 101325.0, 3.2e-3}};
+  balloon.nominal_pressure = 8.0 * 101325.0;
+  balloon.rated_burst_pressure = 16.0 * 101325.0;
+  EXPECT_EQ(panelTexts(state, 1).pressure, "8.0 atm, ⌀ 3.00 mm");
+  EXPECT_EQ(panelTexts(state, 1).balloon, "nominal 8.0 atm (⌀ 3.00 mm), rated 16.0 atm");
+  EXPECT_EQ(panelTexts(state, 0).balloon, "");
+}
+
 TEST(PanelTexts, AreDashesForMissingAndInvalidValues)
 {
   const PanelTexts empty = panelTexts({}, 0);
@@ -87,6 +111,10 @@ TEST(PanelTexts, ShowTheHintOfTheStepAndTheEndOfALesson)
 {
   SessionState state;
   EXPECT_EQ(panelTexts(state, 0).hint, "");
+  state.scene.steps = {{"wire", "Push the wire to the fork."}, {"wire", "Push the wire."}};
+  EXPECT_EQ(panelTexts(state, 0).hint, "Push the wire to the fork.") << "the lesson begins with the first motion";
+  EXPECT_EQ(panelTexts(state, 0).step, "1 of 2: begins with a motion");
+  EXPECT_EQ(state.presentStep(), 0U);
   state.has_step = true;
   state.step.phase = "To the fork";
   state.step.name = "advance wire";
@@ -94,6 +122,7 @@ TEST(PanelTexts, ShowTheHintOfTheStepAndTheEndOfALesson)
   state.step.step_of_procedure = 2;
   state.step.steps_of_procedure = 4;
   EXPECT_EQ(panelTexts(state, 0).step, "2 of 4: To the fork, advance wire");
+  EXPECT_EQ(state.presentStep(), 1U);
   EXPECT_EQ(panelTexts(state, 0).hint, "Push the wire.");
   state.step.outcome = ProcedureStep::DONE;
   EXPECT_EQ(panelTexts(state, 0).hint, "") << "the next step begins at once";

@@ -13,7 +13,7 @@ from endovascular_sim.msg import ProcedureStep, RodStateVisual, SessionProgress
 
 PLACES = {"start": (44, 100), "pause": (129, 100), "reset": (213, 100), "record": (297, 100),
           "push": (107, 181), "pull": (275, 181), "twist_left": (107, 216), "twist_right": (275, 216),
-          "overview": (86, 317), "tip": (201, 317), "in_vessel": (288, 317), "focus": (250, 264)}
+          "overview": (86, 360), "tip": (201, 360), "in_vessel": (288, 360), "focus": (250, 264)}
 
 
 def run(*command, seconds=20, **options):

@@ -134,6 +134,20 @@ void MetricsRecorder::add(const TreatmentVisual& treatment)
       stents_.push_back(fromMessage(stent));
 }
 
+std::vector<results::SessionError> MetricsRecorder::errors() const
+{
+  std::vector<results::SessionError> errors;
+  if (metrics_)
+    errors = metrics_->errors();
+  for (const std::vector<Event>* events : {&events_, &risks_})
+    for (const Event& event : *events)
+      if (event.kind != simulation::nameOf(simulation::TreatmentEvent::kStentPlaced))
+        errors.push_back({event.kind, event.instrument, event.time, 0.0, ""});
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const results::SessionError& a, const results::SessionError& b) { return a.time < b.time; });
+  return errors;
+}
+
 std::string MetricsRecorder::verdict() const
 {
   return metrics_ ? results::verdict(results::lessonMarks(*metrics_)) : std::string();

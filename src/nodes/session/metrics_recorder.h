@@ -49,6 +49,9 @@ public:
    *  @throws InputError when a file cannot be written */
   void write(const std::string& folder, const results::WallForceSummary* forces);
 
+  /** Errors of the trainee so far, in the order of their times; before write() only. */
+  std::vector<results::SessionError> errors() const;
+
   /** Verdict on a lesson, after write(); empty without pass marks. */
   std::string verdict() const;
 

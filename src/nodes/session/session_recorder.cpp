@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "nodes/runtime/diagnostics_publication.h"
 #include "nodes/runtime/guarded_subscription.h"
@@ -30,6 +31,14 @@ std::uint64_t stepsOf(const scene::Scene& scene, const RecorderSettings& setting
 {
   return settings.stop_at_duration ? static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step))
                                    : std::numeric_limits<std::uint64_t>::max();
+}
+
+/** Error as a text: kind, instrument, and value with its unit. */
+std::string textOf(const results::SessionError& error, const scene::Scene& scene)
+{
+  std::string text = error.kind + ": " + scene.instruments[static_cast<std::size_t>(error.instrument)].instrument.name;
+  std::replace(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(error.kind.size()), '_', ' ');
+  return error.unit.empty() ? text : text + formatted(", %.1f %s", error.value, error.unit.c_str());
 }
 
 }  // namespace
@@ -244,6 +253,9 @@ void SessionRecorder::publishProgress()
   progress_.header.stamp = ros::Time::now();
   progress_.run = run_;
   progress_.steps = sequence_.handled();
+  const std::vector<results::SessionError> errors = recording_->results.metrics().errors();
+  progress_.errors = static_cast<std::uint32_t>(errors.size());
+  progress_.last_error = errors.empty() ? std::string() : textOf(errors.back(), scene_);
   progress_publisher_.publish(progress_);
 }
 

@@ -1,5 +1,7 @@
 #include "rviz_plugin/model/scene_summary.h"
 
+#include <algorithm>
+
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_file.h"
 
@@ -23,12 +25,45 @@ visualization::InstrumentShape shapeOf(const instrument::Instrument& instrument)
   return shape;
 }
 
+/** Insertion at which the proximal end fills the introducer's guide (rod::maxInsertion()). */
+double largestInsertion(const scene::Scene& scene, double length)
+{
+  const double edge = scene.sampling.kind == scene::SamplingKind::kAdaptive
+                          ? scene.sampling.max_edge
+                          : length / std::max(scene.sampling.nodes - 1, 1);
+  return length - scene.solver.guide_length - 3.0 * edge;
+}
+
+/** Names of the instruments that neither fit into another one nor take it into their lumen. */
+std::vector<std::string> conflictsOf(const scene::Scene& scene, std::size_t instrument)
+{
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (k != instrument && !instrument::fitsInside(scene.instruments[std::min(k, instrument)].instrument,
+                                                   scene.instruments[std::max(k, instrument)].instrument))
+      names.push_back(scene.instruments[k].instrument.name);
+  return names;
+}
+
+std::vector<StepSummary> stepsOf(const scene::ProcedureScene& procedure)
+{
+  std::vector<StepSummary> steps;
+  for (const scene::StepScene& step : procedure.steps)
+  {
+    steps.push_back({step.instrument, step.hint});
+    if (step.action == scene::StepAction::kExchange)
+      steps.push_back({step.replacement, step.hint});
+  }
+  return steps;
+}
+
 InstrumentSummary summaryOf(const scene::DrivenInstrument& driven)
 {
   InstrumentSummary summary;
   summary.shape = shapeOf(driven.instrument);
   summary.length = driven.instrument.wire.length();
   summary.force_limit = driven.drive.force_limit;
+  summary.torque_limit = driven.drive.torque_limit;
   summary.largest_speed = driven.drive.limits.speed;
   summary.largest_turning_speed = driven.drive.limits.turning_speed;
   summary.takes_commands =
@@ -36,8 +71,7 @@ InstrumentSummary summaryOf(const scene::DrivenInstrument& driven)
   if (driven.instrument.balloon)
   {
     summary.has_balloon = true;
-    summary.nominal_pressure = driven.instrument.balloon->nominal_pressure;
-    summary.rated_pressure = driven.instrument.balloon->rated_burst_pressure;
+    summary.balloon = *driven.instrument.balloon;
   }
   return summary;
 }
@@ -58,8 +92,14 @@ SceneSummary sceneSummary(const SessionInfo& info)
   SceneSummary summary;
   summary.name = info.scene_name;
   summary.duration = scene.duration;
-  for (const scene::DrivenInstrument& driven : scene.instruments)
-    summary.instruments.push_back(summaryOf(driven));
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+  {
+    InstrumentSummary& instrument = summary.instruments.emplace_back(summaryOf(scene.instruments[k]));
+    instrument.largest_insertion = largestInsertion(scene, instrument.length);
+    instrument.conflicts = conflictsOf(scene, k);
+  }
+  if (scene.procedure)
+    summary.steps = stepsOf(*scene.procedure);
   return summary;
 }
 

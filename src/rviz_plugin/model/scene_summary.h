@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "endovascular_sim/SessionInfo.h"
+#include "instrument/balloon.h"
 #include "visualization/instrument_tubes.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -14,13 +15,22 @@ struct InstrumentSummary
 {
   visualization::InstrumentShape shape;  ///< with the name
   double length = 0.0;                   ///< [m]
+  double largest_insertion = 0.0;        ///< at which its proximal end stops it, about 1 mm [m]; 0: unknown
   double force_limit = 0.0;              ///< axial force at which the grip slips or stops [N]
+  double torque_limit = 0.0;             ///< torque at which it does [N·m]
   double largest_speed = 0.0;            ///< largest insertion speed [m/s]
   double largest_turning_speed = 0.0;    ///< [rad/s]
   bool has_balloon = false;
-  double nominal_pressure = 0.0;  ///< of the balloon [Pa]
-  double rated_pressure = 0.0;    ///< rated burst pressure of the balloon [Pa]
-  bool takes_commands = false;    ///< true: the scene lets a topic drive it
+  instrument::Balloon balloon;         ///< valid with has_balloon
+  bool takes_commands = false;         ///< true: the scene lets a topic drive it
+  std::vector<std::string> conflicts;  ///< instruments that cannot be in the introducer together with it
+};
+
+/** Step of a scene's procedure, an exchange counted as two. */
+struct StepSummary
+{
+  std::string instrument;  ///< that moves; empty: none
+  std::string hint;        ///< advice to a person; empty: none
 };
 
 /** Content of a scene that the displays need. */
@@ -29,6 +39,7 @@ struct SceneSummary
   std::string name;
   double duration = 0.0;                       ///< [s]
   std::vector<InstrumentSummary> instruments;  ///< from the inside out
+  std::vector<StepSummary> steps;              ///< of the procedure
 
   std::vector<visualization::InstrumentShape> shapes() const;
 };

@@ -24,6 +24,7 @@ namespace names = nodes::names;
 constexpr double kBranchPeriod = 0.2;         ///< time between two searches of the branch [s]
 constexpr double kDiagnosisAge = 3.0;         ///< age after which a diagnosis is not shown [s]
 constexpr double kSearchPeriod = 1.0;         ///< time between two searches of instruments without a session node [s]
+constexpr double kSameRun = 0.5;              ///< difference of the times of two messages of one run [s]
 constexpr double kUnknownSpeed = 0.05;        ///< speed of an instrument whose scene is unknown [m/s]
 constexpr double kUnknownTurningSpeed = 6.0;  ///< [rad/s]
 
@@ -87,23 +88,21 @@ void SessionClient::subscribe()
                                                                      const std::lock_guard<std::mutex> lock(mutex_);
                                                                      branches_ = branches;
                                                                    }));
-  subscribers_.push_back(nodes::subscribeGuarded<ProcedureStep>(node_, names::kProcedureStep, 4,
-                                                                [this](const ProcedureStepConstPtr& message)
-                                                                {
-                                                                  const std::lock_guard<std::mutex> lock(mutex_);
-                                                                  state_.step = *message;
-                                                                  state_.has_step = true;
-                                                                }));
+  subscribers_.push_back(nodes::subscribeGuarded<ProcedureStep>(
+      node_, names::kProcedureStep, 4, [this](const ProcedureStepConstPtr& message) { receiveStep(message); }));
+  subscribers_.push_back(nodes::subscribeGuarded<SessionSample>(
+      node_, names::kSessionSample, 4, [this](const SessionSampleConstPtr& message) { receiveSample(message); }));
+  subscribers_.push_back(nodes::subscribeGuarded<CArm>(node_, names::kCArmCommand, 4,
+                                                       [this](const CArmConstPtr& message)
+                                                       {
+                                                         const std::lock_guard<std::mutex> lock(mutex_);
+                                                         state_.c_arm_view = message->view;
+                                                       }));
   subscribers_.push_back(nodes::subscribeGuarded<diagnostic_msgs::DiagnosticArray>(
       node_, names::kDiagnostics, 10,
       [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { receiveDiagnostics(message); }));
-  subscribers_.push_back(nodes::subscribeGuarded<SessionProgress>(node_, names::kSessionProgress, 1,
-                                                                  [this](const SessionProgressConstPtr& message)
-                                                                  {
-                                                                    const std::lock_guard<std::mutex> lock(
-                                                                        recording_->mutex);
-                                                                    recording_->run = message->run;
-                                                                  }));
+  subscribers_.push_back(nodes::subscribeGuarded<SessionProgress>(
+      node_, names::kSessionProgress, 1, [this](const SessionProgressConstPtr& message) { receiveProgress(message); }));
   search_ = node_.createWallTimer(ros::WallDuration(kSearchPeriod),
                                   [this](const ros::WallTimerEvent& /*event*/) { searchInstruments(); });
 }
@@ -115,6 +114,7 @@ SessionState SessionClient::state() const
     const std::lock_guard<std::mutex> lock(mutex_);
     state = state_;
     state.wire_age = state.has_wire ? secondsSince(wire_received_) : 0.0;
+    state.error_age = state.last_error.empty() ? 1e9 : secondsSince(error_noted_);
     for (const auto& [name, topics] : instruments_)
       if (topics->state)
       {
@@ -229,12 +229,58 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
     state_.branch = branches_.nameAt(toEigen(message->nodes.back()));
     branch_found_ = Clock::now();
   }
+  if (message->time < state_.wire.time)
+    state_.peak_force.clear();  // a further run
+  noteForces(message->hand_force);
   state_.wire = *message;
   state_.wire.nodes.clear();
   state_.wire.radius.clear();
   state_.wire.contact_force.clear();
   state_.has_wire = true;
   wire_received_ = Clock::now();
+}
+
+void SessionClient::receiveSample(const SessionSampleConstPtr& message)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (std::abs(message->time - state_.wire.time) < kSameRun)
+    noteForces(message->peak_hand_force);
+}
+
+void SessionClient::receiveStep(const ProcedureStepConstPtr& message)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.step = *message;
+  state_.has_step = true;
+  noteError(errors_.follow(*message, state_.branch));
+}
+
+void SessionClient::receiveProgress(const SessionProgressConstPtr& message)
+{
+  {
+    const std::lock_guard<std::mutex> lock(recording_->mutex);
+    recording_->run = message->run;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  noteError(errors_.follow(*message));
+}
+
+/** Follows the largest forces. Requires the lock. */
+void SessionClient::noteForces(const std::vector<double>& forces)
+{
+  state_.peak_force.resize(std::max(state_.peak_force.size(), forces.size()), 0.0);
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    if (std::abs(forces[k]) > state_.peak_force[k])
+      state_.peak_force[k] = std::abs(forces[k]);
+}
+
+/** Takes over a new error, if any. Requires the lock. */
+void SessionClient::noteError(const std::string& error)
+{
+  if (error.empty())
+    return;
+  state_.last_error = error;
+  error_noted_ = Clock::now();
 }
 
 void SessionClient::receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message)

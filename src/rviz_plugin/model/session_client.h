@@ -16,6 +16,8 @@
 #include <sensor_msgs/JointState.h>
 
 #include "endovascular_sim/SessionProgress.h"
+#include "endovascular_sim/SessionSample.h"
+#include "rviz_plugin/model/error_watch.h"
 #include "rviz_plugin/model/pending_calls.h"
 #include "rviz_plugin/model/session_port.h"
 #include "vessel/centreline/branch_finder.h"
@@ -68,6 +70,11 @@ private:
   void subscribe();
   void receiveScene(const SessionInfoConstPtr& info);
   void receiveWire(const RodStateVisualConstPtr& message);
+  void receiveSample(const SessionSampleConstPtr& message);
+  void receiveStep(const ProcedureStepConstPtr& message);
+  void receiveProgress(const SessionProgressConstPtr& message);
+  void noteForces(const std::vector<double>& forces);
+  void noteError(const std::string& error);
   void receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message);
   void connectInstruments(const SceneSummary& scene);
   void searchInstruments();
@@ -78,7 +85,8 @@ private:
   ros::NodeHandle node_;
   mutable std::mutex mutex_;  ///< of the members up to the next blank line
   SessionState state_;
-  Clock::time_point wire_received_, branch_found_;
+  Clock::time_point wire_received_, branch_found_, error_noted_;
+  ErrorWatch errors_;
   vessel::BranchFinder branches_{vessel::CentrelineTree()};
   std::map<std::string, std::shared_ptr<Topics>> instruments_;
   std::map<std::string, Diagnosis> diagnoses_;

@@ -30,7 +30,8 @@ double at(const std::vector<double>& values, std::size_t index)
 std::string stepText(const SessionState& state)
 {
   if (!state.has_step)
-    return "no procedure";
+    return state.scene.steps.empty() ? "no procedure"
+                                     : "1 of " + std::to_string(state.scene.steps.size()) + ": begins with a motion";
   const ProcedureStep& step = state.step;
   std::string text = step.steps_of_procedure > 0
                          ? std::to_string(step.step_of_procedure) + " of " + std::to_string(step.steps_of_procedure)
@@ -50,7 +51,7 @@ std::string stepText(const SessionState& state)
 std::string hintText(const SessionState& state)
 {
   if (!state.has_step)
-    return "";
+    return state.scene.steps.empty() ? "" : state.scene.steps.front().hint;
   if (state.isProcedureDone())
     return state.is_recording ? "All steps are done. Stop the recording for the result." : "All steps are done.";
   return state.step.outcome == ProcedureStep::RUNNING ? state.step.hint : "";
@@ -64,6 +65,24 @@ std::string statusText(const SessionState& state, std::size_t instrument)
   if (operating != nullptr && (operating->state != drive::OperatingState::kEnabled || !operating->reason.empty()))
     return drive::nameOf(operating->state) + (operating->reason.empty() ? "" : ": " + operating->reason);
   return state.wire_age > kStateAge ? "no state of the simulation" : "running";
+}
+
+/** Share of a limit [%]; 0 for a value that is not finite. */
+int shareOf(double value, double limit)
+{
+  return std::isfinite(value) ? static_cast<int>(std::lround(100.0 * std::min(std::abs(value) / limit, 1.0))) : 0;
+}
+
+void describeBalloon(const InstrumentSummary& summary, double pressure, PanelTexts& texts)
+{
+  texts.pressure = number(pressure / units::kAtmosphere, 1, "atm");
+  const instrument::Balloon& balloon = summary.balloon;
+  if (balloon.compliance.empty() || !std::isfinite(pressure))
+    return;
+  texts.pressure += formatted(", ⌀ %.2f mm", 1e3 * balloon.diameterAt(pressure));
+  texts.balloon =
+      formatted("nominal %.1f atm (⌀ %.2f mm), rated %.1f atm", balloon.nominal_pressure / units::kAtmosphere,
+                1e3 * balloon.nominalDiameter(), balloon.rated_burst_pressure / units::kAtmosphere);
 }
 
 }  // namespace
@@ -93,11 +112,11 @@ PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
     if (summary.force_limit > 0.0)
     {
       texts.force += " of " + number(summary.force_limit, 1, "N");
-      if (std::isfinite(force))
-        texts.gauge = static_cast<int>(std::lround(100.0 * std::min(std::abs(force) / summary.force_limit, 1.0)));
+      texts.gauge = shareOf(force, summary.force_limit);
+      texts.peak = std::max(texts.gauge, shareOf(at(state.peak_force, instrument), summary.force_limit));
     }
     if (summary.has_balloon)
-      texts.pressure = number(at(wire.pressure, instrument) / units::kAtmosphere, 1, "atm");
+      describeBalloon(summary, at(wire.pressure, instrument), texts);
   }
   texts.branch = state.branch.empty() ? kDash : state.branch;
   texts.step = stepText(state);

@@ -22,8 +22,12 @@ struct SessionState
   double wire_age = 0.0;                                 ///< wall time since the last state [s]
   std::string branch;                                    ///< of the foremost tip; empty: unknown
   std::map<std::string, drive::ControlState> operating;  ///< operating state of each instrument
+  std::vector<double> peak_force;                        ///< largest axial force on each hand in this run [N]
   ProcedureStep step;
   bool has_step = false;
+  std::string c_arm_view;             ///< to which the C-arm was last commanded; empty: none
+  std::string last_error;             ///< newest error of the trainee; empty: none
+  double error_age = 1e9;             ///< wall time since that error [s]
   std::vector<std::string> errors;    ///< of the diagnostics
   std::vector<std::string> warnings;  ///< of the diagnostics
   bool is_recording = false;
@@ -31,6 +35,9 @@ struct SessionState
   std::uint64_t dead_man_stops = 0;  ///< see VelocityCommander::timeOuts()
   std::string answer;                ///< to the last request
   std::vector<std::string> waiting;  ///< services that have not answered yet, with the time since the call
+
+  /** Step of the procedure that is to be done, from 0; before the first message the first one. */
+  std::size_t presentStep() const { return has_step && step.step_of_procedure > 0 ? step.step_of_procedure - 1U : 0U; }
 
   /** Operating state of an instrument; null if it is not known. */
   const drive::ControlState* operatingStateOf(std::size_t instrument) const;
@@ -44,8 +51,9 @@ struct SessionState
 /** Texts of the panel for one instrument. Invalid or missing values are a dash. */
 struct PanelTexts
 {
-  std::string insertion, rotation, force, torque, pressure, time, branch, step, hint, status, recording;
+  std::string insertion, rotation, force, torque, pressure, balloon, time, branch, step, hint, status, recording;
   int gauge = 0;  ///< share of the force limit [%], 0 to 100
+  int peak = 0;   ///< largest share of this run [%], 0 to 100
 };
 
 /** @param instrument index of the chosen instrument */

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -18,7 +18,8 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr double kVacuum = -0.8e5;  // gauge pressure of a deflated balloon [Pa]
+constexpr double kVacuum = -0.8e5;         // gauge pressure of a deflated balloon [Pa]
+constexpr double kLargestPressure = 40.0;  // that can be typed [atm]
 
 }  // namespace
 
@@ -28,8 +29,11 @@ DriveBox::DriveBox(SessionPort& port, QWidget& keys) : port_(port), key_target_(
   instruments_ = new QComboBox;
   instruments_->setObjectName("instruments");
   instruments_->setFocusPolicy(Qt::NoFocus);
+  instruments_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  layout->setColumnStretch(0, 1);
+  layout->setColumnStretch(1, 1);
   connect(instruments_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-          [this](int index) { choose(index); });
+          [this](int index) { chooseIndex(index); });
   layout->addWidget(instruments_, 0, 0, 1, 2);
   layout->addWidget(motionButton("Push ↑", "push", Motion::kPush), 1, 0);
   layout->addWidget(motionButton("Pull ↓", "pull", Motion::kPull), 1, 1);
@@ -73,22 +77,38 @@ QPushButton* DriveBox::motionButton(const QString& text, const QString& name, Mo
 QWidget* DriveBox::makeBalloonRow()
 {
   auto* row = new QWidget;
-  auto* layout = compact(new QHBoxLayout(row));
-  layout->addWidget(new QLabel("Balloon"));
+  auto* layout = compact(new QGridLayout(row));
   pressure_ = panelLabel("pressure");
-  layout->addWidget(pressure_, 1);
+  chart_ = panelLabel("chart");
+  layout->addWidget(new QLabel("Balloon"), 0, 0);
+  layout->addWidget(pressure_, 0, 1, 1, 4);
+  layout->addWidget(chart_, 1, 0, 1, 5);
+  typed_ = new QDoubleSpinBox;
+  typed_->setObjectName("typed_pressure");
+  typed_->setDecimals(1);
+  typed_->setRange(0.0, kLargestPressure);
+  typed_->setSuffix(" atm");
+  const auto set = [this]
+  {
+    setPressure(typed_->value());
+    key_target_.setFocus();
+  };
+  layout->addWidget(typed_, 2, 0);
+  layout->addWidget(panelButton("Set", "set_pressure", set), 2, 1);
   const struct
   {
     const char *text, *name;
     double atmospheres;
-  } steps[] = {{"+1 atm", "inflate", 1.0}, {"−1 atm", "lower", -1.0}, {"Deflate", "deflate", 0.0}};
+  } steps[] = {{"+1", "inflate", 1.0}, {"−1", "lower", -1.0}, {"Deflate", "deflate", 0.0}};
+  int column = 2;
   for (const auto& step : steps)
     layout->addWidget(panelButton(step.text, step.name,
                                   [this, atmospheres = step.atmospheres]
                                   {
                                     key_target_.setFocus();
                                     changePressure(atmospheres);
-                                  }));
+                                  }),
+                      2, column++);
   row->hide();
   return row;
 }
@@ -98,6 +118,7 @@ void DriveBox::showState(const PanelTexts& texts, bool takes_keys)
   const std::size_t index = chosen();
   balloon_->setVisible(index < state_.scene.instruments.size() && state_.scene.instruments[index].has_balloon);
   pressure_->setText(QString::fromStdString(texts.pressure));
+  chart_->setText(QString::fromStdString(texts.balloon));
   for (QPushButton* button : motions_)
     button->setToolTip(canDrive() ? QString() : QString("the scene does not let a topic drive this instrument"));
   keys_->setText(!canDrive()  ? QString("driven by the scene")
@@ -121,7 +142,7 @@ void DriveBox::takeOver(const SessionState& state)
     instruments_->clear();
     instruments_->addItems(names);
   }
-  choose(instruments_->currentIndex());
+  chooseIndex(instruments_->currentIndex());
 }
 
 std::size_t DriveBox::chosen() const
@@ -140,7 +161,19 @@ void DriveBox::chooseNext(int step)
     instruments_->setCurrentIndex((std::max(instruments_->currentIndex(), 0) + step) % instruments_->count());
 }
 
-void DriveBox::choose(int index)
+void DriveBox::choose(const std::string& instrument)
+{
+  const int index = instruments_->findText(QString::fromStdString(instrument), Qt::MatchExactly);
+  if (index >= 0 && index != instruments_->currentIndex())
+    instruments_->setCurrentIndex(index);
+}
+
+double DriveBox::push() const
+{
+  return canDrive() ? controls_.velocity().insertion : 0.0;
+}
+
+void DriveBox::chooseIndex(int index)
 {
   const auto chosen = static_cast<std::size_t>(std::max(index, 0));
   if (chosen < state_.scene.instruments.size())
@@ -183,12 +216,19 @@ void DriveBox::releaseAll()
 void DriveBox::changePressure(double atmospheres)
 {
   const std::size_t index = chosen();
+  if (index >= state_.wire.pressure.size())
+    return;
+  const double present = std::max(state_.wire.pressure[index], 0.0) / units::kAtmosphere;
+  setPressure(atmospheres == 0.0 ? -1.0 : std::max(present + atmospheres, 0.0));
+}
+
+void DriveBox::setPressure(double target)
+{
+  const std::size_t index = chosen();
   if (index >= state_.scene.instruments.size() || index >= state_.wire.pressure.size() || !canDrive())
     return;
-  const double present = state_.wire.pressure[index];
-  const double target =
-      atmospheres == 0.0 ? kVacuum : std::max(std::max(present, 0.0) + atmospheres * units::kAtmosphere, 0.0);
-  port_.changePressure(state_.scene.instruments[index].shape.name, target - present);
+  const double pressure = target < 0.0 ? kVacuum : target * units::kAtmosphere;
+  port_.changePressure(state_.scene.instruments[index].shape.name, pressure - state_.wire.pressure[index]);
 }
 
 int DriveBox::speedSetting() const

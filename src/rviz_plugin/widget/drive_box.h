@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include <QWidget>
 
@@ -8,6 +9,7 @@
 #include "rviz_plugin/model/session_port.h"
 
 class QComboBox;
+class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
 class QSlider;
@@ -27,9 +29,11 @@ public:
   /** Shows the texts of the state. @param takes_keys true if keys drive at present */
   void showState(const PanelTexts& texts, bool takes_keys);
 
-  std::size_t chosen() const;  ///< index of the chosen instrument
-  void chooseNext(int step);   ///< chooses another instrument, after the last one the first
-  int instruments() const;     ///< number of instruments
+  std::size_t chosen() const;                  ///< index of the chosen instrument
+  void chooseNext(int step);                   ///< chooses another instrument, after the last one the first
+  void choose(const std::string& instrument);  ///< by its name; without effect for an unknown one
+  double push() const;                         ///< insertion speed that is held at present [m/s]
+  int instruments() const;                     ///< number of instruments
 
   void press(Motion motion, OperatorControls::Source source);
   void release(Motion motion, OperatorControls::Source source);
@@ -39,6 +43,9 @@ public:
   /** Changes the pressure of the chosen instrument's balloon.
    *  @param atmospheres difference; 0: deflates it by vacuum */
   void changePressure(double atmospheres);
+  /** Brings the balloon of the chosen instrument to a pressure.
+   *  @param target [atm]; negative: the vacuum of a deflated balloon */
+  void setPressure(double target);
 
   int speedSetting() const;           ///< position of the speed slider, 0 to 100
   void setSpeedSetting(int setting);  ///< as speedSetting()
@@ -46,7 +53,7 @@ public:
 private:
   QPushButton* motionButton(const QString& text, const QString& name, Motion motion);
   QWidget* makeBalloonRow();
-  void choose(int index);
+  void chooseIndex(int index);
   void sendVelocity();
   bool canDrive() const;
 
@@ -58,7 +65,8 @@ private:
   QComboBox* instruments_;
   QSlider* speed_;
   std::array<QPushButton*, kMotions> motions_{};
-  QLabel *speed_text_, *keys_, *pressure_;
+  QLabel *speed_text_, *keys_, *pressure_, *chart_;
+  QDoubleSpinBox* typed_;
   QWidget* balloon_;
 };
 

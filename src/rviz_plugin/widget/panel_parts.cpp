@@ -23,6 +23,7 @@ QLabel* panelLabel(const QString& name)
   auto* label = new QLabel("–");
   label->setObjectName(name);
   label->setTextFormat(Qt::PlainText);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // texts do not change the width of the panel
   return label;
 }
 

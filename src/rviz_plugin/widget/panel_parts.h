@@ -15,7 +15,8 @@ namespace endovascular_sim::rviz_plugin
  *  @param clicked called at each click; empty: nothing */
 QPushButton* panelButton(const QString& text, const QString& name, std::function<void()> clicked = {});
 
-/** Label of plain text; "–" at first. @param name of the object */
+/** Label of plain text; "–" at first. Its text has no effect on the width of the panel.
+ *  @param name of the object */
 QLabel* panelLabel(const QString& name);
 
 /** Removes the margins of a layout and sets its spacing to that of the panel. @return the layout */

@@ -36,6 +36,8 @@ SessionRow::SessionRow(SessionPort& port, QWidget& keys)
                           asking(is_recording_ ? Request::kStopRecording : Request::kReset)();
                         });
   layout->addWidget(record_, 0, 3);
+  for (int column = 0; column < 4; ++column)
+    layout->setColumnStretch(column, 1);
   status_ = panelLabel("status");
   recording_ = panelLabel("recording");
   layout->addWidget(status_, 1, 0, 1, 2);

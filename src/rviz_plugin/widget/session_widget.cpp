@@ -4,9 +4,12 @@
 #include <optional>
 
 #include <QKeyEvent>
+#include <QLabel>
 #include <QVBoxLayout>
 
+#include "rviz_plugin/model/motion_obstacle.h"
 #include "rviz_plugin/widget/drive_box.h"
+#include "rviz_plugin/widget/panel_parts.h"
 #include "rviz_plugin/widget/session_row.h"
 #include "rviz_plugin/widget/state_box.h"
 #include "rviz_plugin/widget/view_rows.h"
@@ -17,6 +20,8 @@ namespace
 {
 
 constexpr int kRefreshPeriod = 50;  // [ms]
+constexpr int kNoticeLines = 2;     // of the notice, also without one: rows below do not move
+constexpr double kErrorTime = 8.0;  // during which an error is announced [s]
 
 // Buttons of a gamepad: A, B, Y, X.
 constexpr int kButtonPause = 0, kButtonNext = 1, kButtonInflate = 3, kButtonDeflate = 2;
@@ -51,8 +56,12 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::stri
   drive_ = new DriveBox(port_, *this);
   box_ = new StateBox;
   QWidget* const views = makeViewRow(*this, [this](const QString& view) { Q_EMIT viewChosen(view); });
-  for (QWidget* part : {static_cast<QWidget*>(session_), static_cast<QWidget*>(drive_), makeCArmRow(port_, *this),
-                        views, static_cast<QWidget*>(box_)})
+  c_arm_ = new CArmRow(port_, *this);
+  notice_ = panelLabel("notice");
+  notice_->setWordWrap(true);
+  notice_->setFixedHeight(kNoticeLines * notice_->fontMetrics().lineSpacing() + 8);
+  for (QWidget* part : {static_cast<QWidget*>(session_), static_cast<QWidget*>(drive_), static_cast<QWidget*>(notice_),
+                        static_cast<QWidget*>(c_arm_), views, static_cast<QWidget*>(box_)})
     layout->addWidget(part);
   layout->addStretch(1);
   connect(&timer_, &QTimer::timeout, this, &SessionWidget::refresh);
@@ -80,11 +89,33 @@ void SessionWidget::refresh()
   port_.confirm();
   state_ = port_.state();
   drive_->takeOver(state_);
+  followProcedure();
   followJoystick();
   const PanelTexts texts = panelTexts(state_, drive_->chosen());
   session_->showState(state_, texts);
   drive_->showState(texts, takesKeys());
   box_->showState(state_, texts);
+  c_arm_->showView(state_.c_arm_view);
+  showNotice();
+}
+
+void SessionWidget::followProcedure()
+{
+  const std::size_t step = state_.presentStep();
+  if (step >= state_.scene.steps.size() || step == followed_step_)
+    return;
+  followed_step_ = step;
+  drive_->choose(state_.scene.steps[step].instrument);
+}
+
+void SessionWidget::showNotice()
+{
+  const bool is_error = state_.error_age < kErrorTime;
+  const std::string text = is_error ? state_.last_error : motionObstacle(state_, drive_->chosen(), drive_->push());
+  notice_->setText(QString::fromStdString(text));
+  notice_->setStyleSheet(text.empty() ? ""
+                         : is_error   ? "background: #c62f2f; color: white; padding: 2px"
+                                      : "background: #ffe0a3; color: #4a3c00; padding: 2px");
 }
 
 void SessionWidget::pauseOrStart()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <QPointer>
@@ -9,9 +10,12 @@
 #include "rviz_plugin/model/joystick.h"
 #include "rviz_plugin/model/session_port.h"
 
+class QLabel;
+
 namespace endovascular_sim::rviz_plugin
 {
 
+class CArmRow;
 class DriveBox;
 class SessionRow;
 class StateBox;
@@ -58,6 +62,8 @@ private:
   bool releaseKey(const QKeyEvent& event);  ///< as pressKey()
   void pauseOrStart();
   void followJoystick();
+  void followProcedure();  ///< chooses the instrument of a new step
+  void showNotice();
 
   SessionPort& port_;
   Joystick joystick_;
@@ -65,6 +71,9 @@ private:
   SessionRow* session_;
   DriveBox* drive_;
   StateBox* box_;
+  CArmRow* c_arm_;
+  QLabel* notice_;  ///< error of the trainee, or reason why the instrument does not follow
+  std::optional<std::size_t> followed_step_;
   QTimer timer_;
   QPointer<QWidget> key_source_;  ///< see takeKeysOf(); null without one
 };

@@ -7,8 +7,8 @@
 
 #include <QFormLayout>
 #include <QLabel>
-#include <QProgressBar>
 
+#include "rviz_plugin/widget/force_gauge.h"
 #include "rviz_plugin/widget/panel_parts.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -17,11 +17,6 @@ namespace
 {
 
 constexpr std::size_t kMostTexts = 3;  // of the shown errors, and of the warnings
-
-QString gaugeColour(int share)
-{
-  return share < 50 ? "#3c9d4e" : share < 80 ? "#d9a018" : "#c62f2f";
-}
 
 QStringList firstTexts(const std::vector<std::string>& texts)
 {
@@ -58,9 +53,7 @@ StateBox::StateBox()
   auto* layout = new QFormLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setVerticalSpacing(2);
-  gauge_ = new QProgressBar;
-  gauge_->setObjectName("gauge");
-  gauge_->setRange(0, 100);
+  gauge_ = new ForceGauge;
   layout->addRow(gauge_);
   const std::pair<const char*, QLabel**> rows[] = {
       {"Force", &force_},   {"Insertion", &insertion_}, {"Rotation", &rotation_}, {"Torque", &torque_},
@@ -97,9 +90,7 @@ void StateBox::showState(const SessionState& state, const PanelTexts& texts)
   for (const auto& [target, text] : shown)
     target->setText(QString::fromStdString(*text));
   hint_->setVisible(!texts.hint.empty());
-  gauge_->setValue(texts.gauge);
-  gauge_->setFormat(QString("%1 % of the force limit").arg(texts.gauge));
-  gauge_->setStyleSheet(QString("QProgressBar::chunk { background: %1 }").arg(gaugeColour(texts.gauge)));
+  gauge_->showForce(texts.gauge, texts.peak);
   answer_->setText(answersOf(state).join("\n"));
   errors_->setText(errorsOf(state).join("\n"));
   warnings_->setText(firstTexts(state.warnings).join("\n"));

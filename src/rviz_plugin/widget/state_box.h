@@ -5,10 +5,11 @@
 #include "rviz_plugin/model/session_state.h"
 
 class QLabel;
-class QProgressBar;
 
 namespace endovascular_sim::rviz_plugin
 {
+
+class ForceGauge;
 
 /** Box of the panel with the state of the chosen instrument and of the session: forces, procedure, errors. */
 class StateBox : public QWidget
@@ -19,7 +20,7 @@ public:
   void showState(const SessionState& state, const PanelTexts& texts);
 
 private:
-  QProgressBar* gauge_;
+  ForceGauge* gauge_;
   QLabel *force_, *insertion_, *rotation_, *torque_, *branch_, *time_, *step_, *hint_, *answer_, *errors_, *warnings_;
 };
 

@@ -18,25 +18,31 @@ const char* const kViews[] = {"AP",        "LAO 40", "RAO 30", "RAO 30 CAU 20", 
 
 }  // namespace
 
-QWidget* makeCArmRow(SessionPort& port, QWidget& keys)
+CArmRow::CArmRow(SessionPort& port, QWidget& keys) : views_(new QComboBox)
 {
-  auto* row = new QWidget;
-  auto* layout = compact(new QHBoxLayout(row));
+  auto* layout = compact(new QHBoxLayout(this));
   layout->addWidget(new QLabel("C-arm"));
-  auto* views = new QComboBox;
-  views->setObjectName("views");
-  views->setEditable(true);
+  views_->setObjectName("views");
+  views_->setEditable(true);
+  views_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   for (const char* view : kViews)
-    views->addItem(view);
-  const auto move = [&port, &keys, views]
+    views_->addItem(view);
+  const auto move = [this, &port, &keys]
   {
-    port.moveCArm(views->currentText().toStdString());
+    port.moveCArm(views_->currentText().toStdString());
     keys.setFocus();
   };
-  QObject::connect(views, QOverload<int>::of(&QComboBox::activated), views, move);
-  layout->addWidget(views, 1);
+  connect(views_, QOverload<int>::of(&QComboBox::activated), views_, move);
+  layout->addWidget(views_, 1);
   layout->addWidget(panelButton("Move", "move_c_arm", move));
-  return row;
+}
+
+void CArmRow::showView(const std::string& view)
+{
+  if (view.empty() || view == shown_ || views_->hasFocus())
+    return;
+  shown_ = view;
+  views_->setCurrentText(QString::fromStdString(view));
 }
 
 QWidget* makeViewRow(QWidget& keys, const std::function<void(const QString&)>& choose)

@@ -1,19 +1,32 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include <QString>
+#include <QWidget>
 
-class QWidget;
+class QComboBox;
 
 namespace endovascular_sim::rviz_plugin
 {
 
 class SessionPort;
 
-/** Row of the panel that moves the C-arm to a view.
- *  @param port, keys as of SessionRow */
-QWidget* makeCArmRow(SessionPort& port, QWidget& keys);
+/** Row of the panel that moves the C-arm to a view. */
+class CArmRow : public QWidget
+{
+public:
+  /** @param port, keys as of SessionRow */
+  CArmRow(SessionPort& port, QWidget& keys);
+
+  /** Shows the view to which the C-arm was commanded, by whomever. A view that the user is typing remains. */
+  void showView(const std::string& view);
+
+private:
+  QComboBox* views_;
+  std::string shown_;
+};
 
 /** Row of the panel that chooses the view of the picture.
  *  @param keys as of SessionRow

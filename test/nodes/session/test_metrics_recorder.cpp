@@ -112,6 +112,20 @@ TEST_F(RecordedStent, IgnoresACrimpedStent)
   EXPECT_FALSE(lesion()["after"]["stented"].get<bool>());
 }
 
+TEST_F(RecordedStent, ListsTheErrorsOfTheTreatmentsWhileTheyHappen)
+{
+  EXPECT_TRUE(recorder_.errors().empty());
+  TreatmentVisual message;
+  message.event = {"stent_placed", "above_rated"};
+  message.event_time = {2.0, 3.0};
+  message.event_instrument = {0, 0};
+  recorder_.add(message);
+  const std::vector<results::SessionError> errors = recorder_.errors();
+  ASSERT_EQ(errors.size(), 1U) << "a placed stent is no error";
+  EXPECT_EQ(errors[0].kind, "above_rated");
+  EXPECT_EQ(errors[0].time, 3.0);
+}
+
 TEST_F(RecordedStent, IgnoresDisplacementsBeforeTheVessel)
 {
   MetricsRecorder early(scene_);

@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <QApplication>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QtTest/QTest>
+
+#include "rviz_plugin/widget/force_gauge.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -205,6 +208,109 @@ TEST_F(SessionWidgetTest, DrivesTheChosenInstrumentAndItsBalloon)
   EXPECT_EQ(session.pressures[0].first, "balloon");
   QTest::keyPress(widget.get(), Qt::Key_Down);
   EXPECT_EQ(session.lastHeld().instrument, "balloon");
+}
+
+TEST_F(SessionWidgetTest, BringsTheBalloonToATypedPressure)
+{
+  QTest::keyClick(widget.get(), Qt::Key_PageDown);
+  widget->refresh();
+  child<QDoubleSpinBox>("typed_pressure")->setValue(12.0);
+  QTest::mouseClick(child<QPushButton>("set_pressure"), Qt::LeftButton);
+  ASSERT_EQ(session.pressures.size(), 1U);
+  EXPECT_DOUBLE_EQ(session.pressures[0].second, 10.0 * 101325.0);
+}
+
+TEST_F(SessionWidgetTest, ChoosesTheInstrumentOfEachNewStep)
+{
+  session.present.scene.steps = {{"balloon", ""}, {"wire", ""}, {"balloon", ""}};
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("instruments")->currentText(), "balloon") << "before the first message";
+  QTest::keyClick(widget.get(), Qt::Key_PageDown);
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("instruments")->currentText(), "wire") << "within a step the trainee chooses";
+  session.present.has_step = true;
+  session.present.step.step_of_procedure = 3;
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("instruments")->currentText(), "balloon");
+}
+
+TEST_F(SessionWidgetTest, EndsAMotionWhenItChoosesTheInstrumentOfAStep)
+{
+  session.present.scene.steps = {{"wire", ""}, {"balloon", ""}};
+  session.present.has_step = true;
+  session.present.step.step_of_procedure = 1;
+  widget->refresh();
+  QTest::keyPress(widget.get(), Qt::Key_Up);
+  EXPECT_FALSE(session.lastHeld().isZero());
+  session.present.step.step_of_procedure = 2;
+  widget->refresh();
+  EXPECT_TRUE(session.lastHeld().isZero());
+}
+
+TEST_F(SessionWidgetTest, SaysWhyAnInstrumentDoesNotMove)
+{
+  session.present.wire.hand_force = {5.0, 0.0};
+  widget->refresh();
+  EXPECT_EQ(child<QLabel>("notice")->text(), "slips at 5 N: it is held; pull back");
+  session.present.wire.hand_force = {1.0, 0.0};
+  widget->refresh();
+  EXPECT_EQ(child<QLabel>("notice")->text(), "");
+}
+
+TEST_F(SessionWidgetTest, AnnouncesAnErrorForAWhile)
+{
+  session.present.last_error = "Wrong branch: left renal";
+  session.present.error_age = 1.0;
+  widget->refresh();
+  EXPECT_EQ(child<QLabel>("notice")->text(), "Wrong branch: left renal");
+  session.present.error_age = 60.0;
+  widget->refresh();
+  EXPECT_EQ(child<QLabel>("notice")->text(), "");
+}
+
+TEST_F(SessionWidgetTest, FollowsTheCommandedViewOfTheCArm)
+{
+  session.present.c_arm_view = "LAO 40";
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("views")->currentText(), "LAO 40");
+  EXPECT_TRUE(session.views.empty()) << "it shows the view and commands nothing";
+  child<QComboBox>("views")->setCurrentText("RAO 30");
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("views")->currentText(), "RAO 30") << "a choice that has not been sent remains";
+  session.present.c_arm_view = "spider";
+  widget->refresh();
+  EXPECT_EQ(child<QComboBox>("views")->currentText(), "spider");
+}
+
+TEST_F(SessionWidgetTest, MarksThePeakOfTheForce)
+{
+  session.present.peak_force = {4.0, 0.0};
+  widget->refresh();
+  auto* gauge = child<ForceGauge>("gauge");
+  EXPECT_EQ(gauge->value(), 50);
+  EXPECT_EQ(gauge->peak(), 80);
+  const QImage image = gauge->grab().toImage();
+  const QColor mark(image.pixel(image.width() * 80 / 100 - 2, image.height() - 4));
+  EXPECT_GT(mark.red(), mark.blue() + 60) << mark.name().toStdString();
+}
+
+TEST_F(SessionWidgetTest, KeepsItsWidthWhateverItsTextsAre)
+{
+  const int width = widget->sizeHint().width(), least = widget->minimumSizeHint().width();
+  session.present.is_recording = true;
+  session.present.errors = {std::string(300, 'x')};
+  session.present.branch = std::string(200, 'y');
+  session.present.answer = std::string(200, 'z');
+  session.present.last_error = std::string(200, 'e');
+  session.present.error_age = 0.0;
+  session.present.has_step = true;
+  session.present.step.phase = std::string(200, 'p');
+  session.present.wire.insertion = {1e5, 0.0};
+  session.present.operating["wire"] = {drive::OperatingState::kPaused, true, false, std::string(200, 'r'), 0};
+  session.present.scene.instruments[0].shape.name = std::string(100, 'n');
+  widget->refresh();
+  EXPECT_EQ(widget->sizeHint().width(), width);
+  EXPECT_EQ(widget->minimumSizeHint().width(), least);
 }
 
 TEST_F(SessionWidgetTest, DoesNotDriveAnInstrumentThatTheSceneDrives)

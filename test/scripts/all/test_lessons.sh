@@ -13,7 +13,7 @@ for lesson in "$@"; do
 import glob, os, sys, time
 from rviz_session import RvizSession, run
 folder, repository, lesson = sys.argv[1:]
-# Index of an instrument whose tip is in the introducer at the beginning.
+# Index of the instrument of the first step, which the panel chooses.
 driven = {"lesson_bifurcation": 0, "lesson_catheter_needs_wire": 1, "lesson_lad_stent": 2}[lesson]
 
 
@@ -31,8 +31,6 @@ with RvizSession(folder, "%s/launch/%s.launch" % (repository, lesson), "expert:=
 
     session.wait(30, lambda: session.step is not None and session.step.hint, "the hint of the first step")
     session.click("focus")
-    for _ in range(driven):
-        session.hold_key("Next", 0.1)
     beginning = insertion()
     session.hold_until("push", 20, lambda: insertion() > beginning + 2e-3, "a push by the mouse")
     time.sleep(1.5)

@@ -1,0 +1,44 @@
+#include "rviz_plugin/widget/force_gauge.h"
+
+#include <QPainter>
+
+namespace endovascular_sim::rviz_plugin
+{
+namespace
+{
+
+constexpr int kMarkWidth = 3;  // [pixels]
+
+QString colourOf(int share)
+{
+  return share < 50 ? "#3c9d4e" : share < 80 ? "#d9a018" : "#c62f2f";
+}
+
+}  // namespace
+
+ForceGauge::ForceGauge()
+{
+  setObjectName("gauge");
+  setRange(0, 100);
+}
+
+void ForceGauge::showForce(int share, int peak)
+{
+  peak_ = peak;
+  setValue(share);
+  setFormat(QString("%1 % of the force limit, peak %2 %").arg(share).arg(peak));
+  setStyleSheet(QString("QProgressBar::chunk { background: %1 }").arg(colourOf(share)));
+  update();
+}
+
+void ForceGauge::paintEvent(QPaintEvent* event)
+{
+  QProgressBar::paintEvent(event);
+  if (peak_ <= 0)
+    return;
+  QPainter painter(this);
+  const int left = (width() - kMarkWidth) * peak_ / 100;
+  painter.fillRect(left, 0, kMarkWidth, height(), QColor(colourOf(peak_)).darker(140));
+}
+
+}  // namespace endovascular_sim::rviz_plugin
