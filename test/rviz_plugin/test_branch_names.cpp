@@ -1,4 +1,4 @@
-#include "rviz_plugin/model/branch_names.h"
+#include "rviz_plugin/picture/branch_names.h"
 
 #include <cmath>
 #include <limits>

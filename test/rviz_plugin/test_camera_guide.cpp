@@ -1,4 +1,4 @@
-#include "rviz_plugin/model/camera_guide.h"
+#include "rviz_plugin/picture/camera_guide.h"
 
 #include <cmath>
 #include <limits>
@@ -74,7 +74,7 @@ TEST(SmoothPoint, ReachesAStepWithoutOvershoot)
   EXPECT_NEAR(last, 1.0, 1e-6);
 }
 
-TEST(CameraGuide, ShowsTheWholeVesselAboveTheLegendsInTheOverview)
+TEST(CameraGuide, ShowsTheWholeVesselInTheOverview)
 {
   CameraGuide guide(ViewMode::kOverview);
   const VesselCentreline vessel = helix();
@@ -94,7 +94,6 @@ TEST(CameraGuide, ShowsTheWholeVesselAboveTheLegendsInTheOverview)
         const double half = point.dot(forward) * std::tan(0.5 * kFieldOfView);
         largest =
             std::max({largest, std::abs(point.dot(pose.up)) / half, std::abs(point.dot(right)) / (half * aspect)});
-        EXPECT_GT(point.dot(pose.up) / half, -0.85) << "the legends cover the vessel";
       }
       EXPECT_LT(largest, 1.0);
       EXPECT_GT(largest, 0.8);

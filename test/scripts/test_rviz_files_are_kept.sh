@@ -22,7 +22,7 @@ def is_running(pid):
         return False
 
 before = hashes()
-with RvizSession(folder, repository + "/launch/lesson_bifurcation.launch", "expert:=false") as session:
+with RvizSession(folder, repository + "/launch/lesson_bifurcation.launch", "expert:=false", "layout:=work") as session:
     rviz = session.pid_of("rviz")
     assert open("/proc/%d/comm" % rviz).read().strip() == "rviz", "another process stands for rviz"
     session.click("tip")  # another view: the configuration has changed

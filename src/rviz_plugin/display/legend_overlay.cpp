@@ -11,14 +11,18 @@
 #include <Overlay/OgreOverlayManager.h>
 #include <QPainter>
 
+#include "rviz_plugin/widget/font_scale.h"
+
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
 
-constexpr int kWidth = 180, kHeight = 54;  // of a legend [pixels]
-constexpr int kMargin = 9;
-constexpr int kBarTop = 21, kBarHeight = 10;
+// With usual fonts [pixels]
+constexpr int kLegendWidth = 92, kLegendHeight = 190;
+constexpr int kTitleHeight = 44, kMargin = 7;
+constexpr int kBarWidth = 12, kBarTop = 56, kBarHeight = kLegendHeight - kBarTop - 12;
+constexpr int kLegendRim = 10, kLegendGap = 8;  // from the edge of the picture, and between two legends [pixels]
 
 std::string uniqueName()
 {
@@ -31,29 +35,43 @@ std::string uniqueName()
 QImage legendImage(const std::string& title, const visualization::LegendScale& scale,
                    const std::function<visualization::Colour(double)>& colour_at)
 {
-  QImage image(kWidth, kHeight, QImage::Format_ARGB32);
+  const double size = fontScale();
+  QImage image(static_cast<int>(size * kLegendWidth), static_cast<int>(size * kLegendHeight), QImage::Format_ARGB32);
   image.fill(QColor(20, 24, 30, 190));
   QPainter painter(&image);
+  painter.scale(size, size);
   painter.setRenderHint(QPainter::TextAntialiasing);
   QFont font("DejaVu Sans");
   font.setPixelSize(11);
   painter.setFont(font);
   painter.setPen(Qt::white);
-  painter.drawText(kMargin, 14, QString::fromStdString(title + " [" + scale.unit + "]"));
-  const int bar = kWidth - 2 * kMargin - 8;
-  for (int x = 0; x < bar; ++x)
+  painter.drawText(QRect(kMargin, 5, kLegendWidth - 2 * kMargin, kTitleHeight), Qt::AlignLeft | Qt::TextWordWrap,
+                   QString::fromStdString(title + " [" + scale.unit + "]"));
+  const auto height_of = [&](double value)
+  { return kBarTop + static_cast<int>((kBarHeight - 1) * (1.0 - value / scale.full)); };
+  for (int y = 0; y < kBarHeight; ++y)
   {
-    const visualization::Colour colour = colour_at(scale.full * x / (bar - 1));
-    painter.fillRect(kMargin + x, kBarTop, 1, kBarHeight, QColor::fromRgbF(colour.red, colour.green, colour.blue));
+    const visualization::Colour colour = colour_at(scale.full * (kBarHeight - 1 - y) / (kBarHeight - 1));
+    painter.fillRect(kMargin, kBarTop + y, kBarWidth, 1, QColor::fromRgbF(colour.red, colour.green, colour.blue));
   }
   for (std::size_t k = 0; k < scale.ticks.size(); ++k)
   {
-    const int x = kMargin + static_cast<int>((bar - 1) * scale.ticks[k] / scale.full);
-    painter.drawLine(x, kBarTop + kBarHeight, x, kBarTop + kBarHeight + 4);
-    painter.drawText(QRect(x - 25, kBarTop + kBarHeight + 5, 50, 16), Qt::AlignHCenter | Qt::AlignTop,
+    const int y = height_of(scale.ticks[k]), x = kMargin + kBarWidth;
+    painter.drawLine(x, y, x + 4, y);
+    painter.drawText(QRect(x + 8, y - 9, kLegendWidth - x - 8, 18), Qt::AlignLeft | Qt::AlignVCenter,
                      QString::fromStdString(scale.labels[k]));
   }
   return image;
+}
+
+QPoint legendPlace(int number)
+{
+  return {kLegendRim, static_cast<int>(kLegendRim + number * fontScale() * (kLegendHeight + kLegendGap))};
+}
+
+QSize legendsSize()
+{
+  return {static_cast<int>(2 * kLegendRim + fontScale() * kLegendWidth), legendPlace(2).y()};
 }
 
 PictureOverlay::PictureOverlay() : name_(uniqueName())
@@ -86,11 +104,11 @@ PictureOverlay::~PictureOverlay()
     Ogre::TextureManager::getSingleton().remove(texture_);
 }
 
-void PictureOverlay::show(const QImage& image, int left, int bottom)
+void PictureOverlay::show(const QImage& image, const QPoint& place)
 {
   const QImage pixels = image.convertToFormat(QImage::Format_ARGB32);
   resize(pixels.width(), pixels.height());
-  panel_->setPosition(static_cast<float>(left), static_cast<float>(-bottom - pixels.height()));
+  panel_->setPosition(static_cast<float>(place.x()), static_cast<float>(-place.y() - pixels.height()));
   panel_->setDimensions(static_cast<float>(pixels.width()), static_cast<float>(pixels.height()));
   const Ogre::PixelBox source(static_cast<Ogre::uint32>(pixels.width()), static_cast<Ogre::uint32>(pixels.height()), 1,
                               Ogre::PF_A8R8G8B8, const_cast<uchar*>(pixels.constBits()));

@@ -6,6 +6,8 @@
 #include <OgreMaterial.h>
 #include <OgreTexture.h>
 #include <QImage>
+#include <QPoint>
+#include <QSize>
 
 #include "visualization/colour_legend.h"
 
@@ -18,10 +20,17 @@ class OverlayContainer;
 namespace endovascular_sim::rviz_plugin
 {
 
-/** Picture of a legend: a title, a bar of colours, ticks with labels.
+/** Picture of a legend: a title, a bar of colours, ticks with labels. Its size follows fontScale().
  *  @param colour_at colour of a value */
 QImage legendImage(const std::string& title, const visualization::LegendScale& scale,
                    const std::function<visualization::Colour(double)>& colour_at);
+
+/** Place of a legend: margins from the lower left corner [pixels]. @param number of the legend, from below: 0 or 1
+ */
+QPoint legendPlace(int number);
+
+/** Size of both legends with their rim, in the lower left corner [pixels]. */
+QSize legendsSize();
 
 /** Picture over the scene, in a fixed place from the lower left corner. */
 class PictureOverlay
@@ -32,8 +41,8 @@ public:
   PictureOverlay(const PictureOverlay&) = delete;
   PictureOverlay& operator=(const PictureOverlay&) = delete;
 
-  /** @param left, bottom margins [pixels] */
-  void show(const QImage& image, int left, int bottom);
+  /** @param place margins from the left and the lower edge [pixels] */
+  void show(const QImage& image, const QPoint& place);
   void hide();
 
 private:

@@ -4,7 +4,7 @@
 #include <ros/subscriber.h>
 #include <rviz/view_controller.h>
 
-#include "rviz_plugin/model/camera_guide.h"
+#include "rviz_plugin/picture/camera_guide.h"
 
 namespace endovascular_sim::rviz_plugin
 {

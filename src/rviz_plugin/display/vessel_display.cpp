@@ -22,14 +22,13 @@
 #include "rviz_plugin/display/copied_config.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
+#include "rviz_plugin/widget/font_scale.h"
 
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
 
-constexpr int kLegendLeft = 198, kLegendBottom = 10;            // beside the legend of the wire [pixels]
-constexpr double kLegendsWidth = 388.0, kLegendsHeight = 74.0;  ///< of both legends with their rim [pixels]
 constexpr double kNamesPeriod = 0.25;    ///< shortest time between two placements of the names [s]
 constexpr float kGlow = 0.3F;            ///< of the far wall, relative to its colour
 constexpr double kMiddleDistance = 0.2;  ///< of the vessel from the camera [m]
@@ -232,8 +231,8 @@ std::optional<visualization::PictureView> VesselDisplay::pictureView() const
     view.width = viewport->getActualWidth();
     view.height = viewport->getActualHeight();
   }
-  view.legend_width = kLegendsWidth;
-  view.legend_height = kLegendsHeight;
+  view.legend_width = legendsSize().width();
+  view.legend_height = legendsSize().height();
   view.focal = 0.5 * view.height / std::tan(0.5 * camera->getFOVy().valueRadians());
   if (has_tip_)
     view.reach = reachOfNames(tip_, view);
@@ -317,8 +316,10 @@ void VesselDisplay::drawWall()
 
 void VesselDisplay::drawNearWall()
 {
+  static const std::vector<std::uint32_t> kNone;
+  const bool is_drawn = near_opacity_->getFloat() > 0.0F;
   drawing_.cutAway(tip_, has_tip_ ? cutaway_->getFloat() : 0.0F, near_opacity_->getFloat());
-  near_wall_->update(drawing_.wall(), drawing_.wall().triangles);
+  near_wall_->update(drawing_.wall(), is_drawn ? drawing_.wall().triangles : kNone);
   cut_at_ = tip_;
   is_cut_ = has_tip_;
   last_cut_ = ros::WallTime::now();
@@ -344,7 +345,7 @@ void VesselDisplay::drawHeat()
 
 NameStyle VesselDisplay::nameStyle() const
 {
-  return {name_colour_->getColor(), static_cast<int>(std::lround(name_height_->getFloat()))};
+  return {name_colour_->getColor(), static_cast<int>(std::lround(fontScale() * name_height_->getFloat()))};
 }
 
 void VesselDisplay::placeNames()
@@ -367,7 +368,7 @@ void VesselDisplay::placeNames()
 
 void VesselDisplay::drawNames(const visualization::PictureView& view)
 {
-  name_picture_->show(namePicture(names_, view, nameStyle()), 0, 0);
+  name_picture_->show(namePicture(names_, view, nameStyle()), {0, 0});
   drawn_in_ = view;
   context_->queueRender();
 }
@@ -398,7 +399,7 @@ void VesselDisplay::drawLegend()
                               const visualization::TranslucentColour heat = visualization::heatColour(value, full);
                               return visualization::blend(wall, heat.colour, heat.opacity);
                             }),
-                kLegendLeft, kLegendBottom);
+                legendPlace(1));
 }
 
 }  // namespace endovascular_sim::rviz_plugin

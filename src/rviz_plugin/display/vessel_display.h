@@ -14,8 +14,8 @@
 #include "endovascular_sim/VesselMesh.h"
 #include "rviz_plugin/display/legend_overlay.h"
 #include "rviz_plugin/display/surface_object.h"
-#include "rviz_plugin/model/branch_names.h"
 #include "rviz_plugin/model/vessel_drawing.h"
+#include "rviz_plugin/picture/branch_names.h"
 #include "rviz_plugin/widget/name_picture.h"
 
 namespace rviz

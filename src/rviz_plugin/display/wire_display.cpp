@@ -26,9 +26,8 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr int kLegendLeft = 10, kLegendBottom = 10;  // [pixels]
-constexpr int kUsualHeight = 700;                    // of a view [pixels]
-constexpr double kShareOfRadius = 0.1;               // change of the smallest radius that is drawn
+constexpr int kUsualHeight = 700;       // of a view [pixels]
+constexpr double kShareOfRadius = 0.1;  // change of the smallest radius that is drawn
 
 template <typename Message>
 QString typeOf()
@@ -253,7 +252,7 @@ void WireDisplay::drawLegend()
   const visualization::Colour base = toColour(colours_[0]->getColor());
   legend_->show(legendImage("Force on the instrument", visualization::legendScale(full, "N"),
                             [&](double force) { return visualization::forceColourOver(base, force, full); }),
-                kLegendLeft, kLegendBottom);
+                legendPlace(0));
 }
 
 double WireDisplay::smallestRadius() const

@@ -2,6 +2,8 @@
 
 #include <QPainter>
 
+#include "rviz_plugin/widget/font_scale.h"
+
 namespace endovascular_sim::rviz_plugin
 {
 namespace
@@ -20,14 +22,15 @@ ForceGauge::ForceGauge()
 {
   setObjectName("gauge");
   setRange(0, 100);
+  setFont(scaledFont(font()));
 }
 
 void ForceGauge::showForce(int share, int peak)
 {
   peak_ = peak;
-  setValue(share);
   setFormat(QString("%1 % of the force limit, peak %2 %").arg(share).arg(peak));
   setStyleSheet(QString("QProgressBar::chunk { background: %1 }").arg(colourOf(share)));
+  setValue(share);  // last: it draws at once
   update();
 }
 

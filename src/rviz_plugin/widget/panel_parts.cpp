@@ -5,6 +5,8 @@
 #include <QLabel>
 #include <QPushButton>
 
+#include "rviz_plugin/widget/font_scale.h"
+
 namespace endovascular_sim::rviz_plugin
 {
 
@@ -23,6 +25,7 @@ QLabel* panelLabel(const QString& name)
   auto* label = new QLabel("–");
   label->setObjectName(name);
   label->setTextFormat(Qt::PlainText);
+  label->setFont(scaledFont(label->font()));  // a label with a style sheet does not take the font of its parent
   label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // texts do not change the width of the panel
   return label;
 }

@@ -8,13 +8,6 @@
 
 namespace endovascular_sim::rviz_plugin
 {
-namespace
-{
-
-constexpr int kStatusWidth = 160;  // [pixels]
-
-}  // namespace
-
 SessionRow::SessionRow(SessionPort& port, QWidget& keys)
 {
   const auto asking = [&port, &keys](Request request)
@@ -50,7 +43,7 @@ void SessionRow::showState(const SessionState& state, const PanelTexts& texts)
   record_->setText(is_recording_ ? "Stop rec." : "Record");
   // One line: buttons below must not move under the mouse. The reason is among the errors.
   const QString status = QString::fromStdString(texts.status);
-  status_->setText(status_->fontMetrics().elidedText(status, Qt::ElideRight, kStatusWidth));
+  status_->setText(status_->fontMetrics().elidedText(status, Qt::ElideRight, status_->width()));
   status_->setToolTip(status);
   recording_->setText(QString::fromStdString(texts.recording));
 }

@@ -9,6 +9,7 @@
 
 #include "rviz_plugin/model/motion_obstacle.h"
 #include "rviz_plugin/widget/drive_box.h"
+#include "rviz_plugin/widget/font_scale.h"
 #include "rviz_plugin/widget/panel_parts.h"
 #include "rviz_plugin/widget/session_row.h"
 #include "rviz_plugin/widget/state_box.h"
@@ -49,6 +50,7 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::stri
   : QWidget(parent), port_(port), joystick_(joystick)
 {
   setFocusPolicy(Qt::StrongFocus);
+  setFont(scaledFont(font()));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
@@ -59,7 +61,7 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::stri
   c_arm_ = new CArmRow(port_, *this);
   notice_ = panelLabel("notice");
   notice_->setWordWrap(true);
-  notice_->setFixedHeight(kNoticeLines * notice_->fontMetrics().lineSpacing() + 8);
+  notice_->setFixedHeight(kNoticeLines * fontMetrics().lineSpacing() + 8);
   for (QWidget* part : {static_cast<QWidget*>(session_), static_cast<QWidget*>(drive_), static_cast<QWidget*>(notice_),
                         static_cast<QWidget*>(c_arm_), views, static_cast<QWidget*>(box_)})
     layout->addWidget(part);

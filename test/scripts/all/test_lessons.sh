@@ -21,7 +21,7 @@ def passed(text):
     print("%s: %s" % (lesson, text), flush=True)
 
 
-with RvizSession(folder, "%s/launch/%s.launch" % (repository, lesson), "expert:=false",
+with RvizSession(folder, "%s/launch/%s.launch" % (repository, lesson), "expert:=false", "layout:=work",
                  "overrides:=fluoroscopy.pixels=128") as session:
     def insertion():
         return session.state.insertion[driven]

@@ -1,4 +1,4 @@
-#include "rviz_plugin/model/camera_guide.h"
+#include "rviz_plugin/picture/camera_guide.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,6 @@ constexpr double kRate = 6.0;             ///< natural frequency of the camera's
 constexpr double kTipDistance = 0.08;     ///< of the camera from the tip [m]
 constexpr double kDistanceBehind = 0.05;  ///< of the camera behind the tip, along the wire [m]
 constexpr double kRim = 1.08;             ///< picture relative to the vessel
-constexpr double kLegendStrip = 0.1;      ///< share of the height of the overview below the vessel, for the legends
 constexpr double kSteepest = 85.0 * units::kDegree;
 
 /** Direction from the focus to the camera. */
@@ -115,7 +114,7 @@ double CameraGuide::fittingDistance(const ViewSetting& setting, double aspect, d
   {
     const Eigen::Vector3d point = centreline_[i] - centre();
     const double depth = point.dot(forward);
-    distance = std::max({distance, (std::abs(point.dot(up)) + radii_[i]) / (slope * (1.0 - kLegendStrip)) - depth,
+    distance = std::max({distance, (std::abs(point.dot(up)) + radii_[i]) / slope - depth,
                          (std::abs(point.dot(right)) + radii_[i]) / (slope * aspect) - depth});
   }
   return centreline_.empty() ? (high_ - low_).norm() : distance;
@@ -140,9 +139,7 @@ CameraGuide::Target CameraGuide::targetOf(const ViewSetting& setting, double asp
   if (mode_ == ViewMode::kOverview || wire_.empty())
   {
     const double distance = is_distance_set ? setting.distance : fittingDistance(setting, aspect, field_of_view);
-    const Eigen::Vector3d up = normalPart(Eigen::Vector3d::UnitZ(), directionOf(setting));
-    const double shift = kLegendStrip * distance * std::tan(0.5 * field_of_view);
-    return {centre() - shift * up, distance * directionOf(setting)};
+    return {centre(), distance * directionOf(setting)};
   }
   if (mode_ == ViewMode::kFollowTip)
     return {wire_.back(), (is_distance_set ? setting.distance : kTipDistance) * directionOf(setting)};
