@@ -42,11 +42,18 @@ const char* outcomeName(procedure::Progress progress)
 
 }  // namespace
 
+bool isError(const std::string& event)
+{
+  return event != "stent_placed";
+}
+
 SessionMetrics::SessionMetrics(const scene::Scene& scene, const vessel::CentrelineTree& tree,
                                const Eigen::Vector3d& entry)
   : scene_(scene),
     locator_(tree, scene.procedure ? scene.procedure->branches : std::vector<scene::NamedBranch>()),
     branch_entries_(scene, locator_, locator_.at(entry).branch),
+    limits_(scene.errors.value_or(scene::ErrorLimits())),
+    support_watch_(scene, locator_, locator_.at(entry).branch),
     ahead_(scene.instruments.size(), false),
     ahead_time_(scene.instruments.size(), 0.0),
     was_in_(scene.instruments.size(), false),
@@ -70,6 +77,7 @@ void SessionMetrics::add(Sample sample)
   followWires(sample);
   followExchanges(sample);
   followForces(sample);
+  followSupport(sample);
   samples_.push_back(std::move(sample));
 }
 
@@ -114,7 +122,7 @@ void SessionMetrics::setSteps(std::vector<procedure::StepRecord> steps, std::str
 
 void SessionMetrics::addEvent(const std::string& kind, int instrument, double time)
 {
-  if (kind != "stent_placed")
+  if (isError(kind))
     errors_.push_back({kind, instrument, time, 0.0, ""});
 }
 
@@ -208,9 +216,17 @@ void SessionMetrics::followExchanges(const Sample& sample)
 
 void SessionMetrics::followForces(const Sample& sample)
 {
+  if (sample.observation.time < untrusted_until_)
+    return;
   const int foremost = foremostOf(sample.observation);
+  followPerforation(sample, foremost);
+  followTipForce(sample, foremost);
+}
+
+void SessionMetrics::followPerforation(const Sample& sample, int foremost)
+{
   const double at_tip = sample.peaks.wall.at_tip;
-  if (sample.observation.time < untrusted_until_ || at_tip <= kPerforation ||
+  if (at_tip <= limits_.perforation_force ||
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind != instrument::Kind::kGuidewire)
     return;
   if (sample.observation.time > perforation_until_ + kSameTime)
@@ -220,6 +236,38 @@ void SessionMetrics::followForces(const Sample& sample)
   }
   errors_[perforation_error_].value = std::max(errors_[perforation_error_].value, at_tip);
   perforation_until_ = sample.observation.time;
+}
+
+/** Detects a tip that pushes on against the wall: the largest force of every interval between two samples exceeds the
+ *  limit for longer than its time. The blunt tips of catheters may bear the force that risks a perforation by a wire.
+ */
+void SessionMetrics::followTipForce(const Sample& sample, int foremost)
+{
+  const double at_tip = sample.peaks.wall.at_tip;
+  const bool is_wire =
+      scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind == instrument::Kind::kGuidewire;
+  const bool pushes = at_tip > (is_wire ? limits_.tip_force : limits_.perforation_force);
+  if (!pushes || foremost != pushing_)
+  {
+    pushing_ = pushes ? foremost : -1;
+    pushing_since_ = sample.observation.time;
+    push_ = 0.0;
+    push_error_ = -1;
+  }
+  push_ = std::max(push_, at_tip);
+  if (pushes && push_error_ < 0 && sample.observation.time - pushing_since_ >= limits_.tip_force_time)
+  {
+    push_error_ = static_cast<std::ptrdiff_t>(errors_.size());
+    errors_.push_back({"sustained force of a tip", foremost, pushing_since_, push_, "N"});
+  }
+  if (push_error_ >= 0)
+    errors_[static_cast<std::size_t>(push_error_)].value = push_;
+}
+
+void SessionMetrics::followSupport(const Sample& sample)
+{
+  for (const int catheter : support_watch_.add(sample.observation))
+    errors_.push_back({"support lost", catheter, sample.observation.time, 0.0, ""});
 }
 
 /** Time during which at least one handle moves or a balloon is under pressure [s]. Fluoroscopy is assumed to be on

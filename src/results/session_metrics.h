@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "procedure/branch_entries.h"
 #include "procedure/branch_locator.h"
 #include "procedure/operator.h"
+#include "procedure/support_watch.h"
 #include "results/session_sample.h"
 #include "results/treatment_report.h"
 #include "results/wall_force_map.h"
@@ -41,6 +43,9 @@ struct SessionError
   std::string unit;    ///< unit of the value; empty: no value
 };
 
+/** Reports whether an event of a treatment is an error: all kinds except a placed stent. */
+bool isError(const std::string& event);
+
 /** Period with a fault of the simulator. Errors of the trainee that follow from forces are not counted during and
  *  shortly after it. */
 struct SimulatorFault
@@ -59,7 +64,6 @@ class SessionMetrics
 {
 public:
   static constexpr double kRate = SessionSampler::kRate;  ///< sampling rate [Hz]
-  static constexpr double kPerforation = 0.5;  ///< force of a guidewire's tip that risks a perforation (assumed) [N]
 
   /** @param entry position of the introducer, patient frame [m] */
   SessionMetrics(const scene::Scene& scene, const vessel::CentrelineTree& tree, const Eigen::Vector3d& entry);
@@ -78,7 +82,7 @@ public:
   const std::optional<WallForceSummary>& wallForces() const { return wall_forces_; }
   const std::vector<LesionOutcome>& lesions() const { return lesions_; }
   void setLesions(std::vector<LesionOutcome> lesions) { lesions_ = std::move(lesions); }
-  /** Adds an event of a treatment; all kinds except a placed stent are errors. */
+  /** Adds an event of a treatment if it is an error. */
   void addEvent(const std::string& kind, int instrument, double time);
 
   /** Metrics as JSON in SI units. */
@@ -101,6 +105,9 @@ private:
   void followWires(const Sample& sample);
   void followExchanges(const Sample& sample);
   void followForces(const Sample& sample);
+  void followPerforation(const Sample& sample, int foremost);
+  void followTipForce(const Sample& sample, int foremost);
+  void followSupport(const Sample& sample);
   int stepAt(double time) const;
   nlohmann::ordered_json stepsJson(const std::vector<WrongBranch>& stays) const;
   nlohmann::ordered_json instrumentJson(std::size_t k, const std::vector<WrongBranch>& stays) const;
@@ -112,6 +119,8 @@ private:
   scene::Scene scene_;
   procedure::BranchLocator locator_;
   procedure::BranchEntries branch_entries_;  ///< before the first sample
+  scene::ErrorLimits limits_;
+  procedure::SupportWatch support_watch_;
   std::vector<Sample> samples_;
   std::int64_t interval_ = -1;  ///< sampling interval of the newest sample
   double sampled_until_ = 0.0;  ///< time of the newest sample, a rejected one included [s]
@@ -126,6 +135,10 @@ private:
   std::vector<double> ahead_time_;     ///< for each instrument: time ahead of all guidewires [s]
   std::size_t perforation_error_ = 0;  ///< index of the latest perforation risk in errors_
   double perforation_until_ = -1e9;    ///< end of the latest perforation risk [s]
+  int pushing_ = -1;                   ///< instrument whose tip exceeds ErrorLimits::tip_force; −1: none
+  double pushing_since_ = 0.0;         ///< [s]
+  double push_ = 0.0;                  ///< its largest force since then [N]
+  std::ptrdiff_t push_error_ = -1;     ///< index of this error in errors_; −1: not yet one
   std::vector<bool> was_in_;           ///< for each instrument: true if it was in the introducer at the last sample
   std::vector<int> entries_;           ///< for each instrument: number of insertions into the introducer
   int withdrawn_ = 0;                  ///< withdrawals not yet followed by an insertion

@@ -40,7 +40,7 @@ const std::vector<std::string> kScenes = {
         " {at: [0, 0, 0.1], length: 0.01, grade: 0.5}]}\ninstrument: " +
         kWire +
         "\ndrive: {source: script, speed: 0.01, travel: 0.1, limits: {insertion: [0, 0.5]}}\nfluoroscopy: {isocentre: "
-        "[0, 0, 0], energy: 60, field: [0.1, 0.1], gantry: {}}\n",
+        "[0, 0, 0], energy: 60, field: [0.1, 0.1], gantry: {}}\nerrors: {}\n",
     // a mesh, adaptive sampling, profiles, a robot
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}\n"
     "entry: {nearest_centreline_end: true, position: [0, 0, 0]}\ninstrument: " +

@@ -19,9 +19,11 @@ public:
   explicit Session(const std::string& steps =
                        "    - {advance: wire, until: {tip_in: goal}}\n    - {advance: catheter, "
                        "until: {by: 0.1}}\n")
-    : metrics(procedure::sceneWith(steps), procedure::forkedTree(), {0, 0, 0.001})
+    : Session(procedure::sceneWith(steps))
   {
   }
+
+  explicit Session(const scene::Scene& scene) : metrics(scene, procedure::forkedTree(), {0, 0, 0.001}) {}
 
   /** Moves all tips and handles linearly to new positions over a duration. */
   void move(double seconds, const std::vector<Eigen::Vector3d>& tips, const std::vector<double>& insertions,
@@ -201,7 +203,10 @@ TEST(SessionMetrics, CountsExchanges)
 
 TEST(SessionMetrics, ReportsARiskOfPerforationOncePerEpisode)
 {
-  Session session;
+  scene::Scene scene = procedure::sceneWith("    - {wait: 1}\n");
+  scene.errors.emplace();
+  scene.errors->tip_force = 1.0;
+  Session session(scene);
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.2);
   session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.8);
   session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.2);
@@ -213,6 +218,87 @@ TEST(SessionMetrics, ReportsARiskOfPerforationOncePerEpisode)
   EXPECT_EQ(json["errors"][0]["error"], "risk of perforation");
   EXPECT_EQ(json["errors"][0]["instrument"], "wire");
   EXPECT_NEAR(json["errors"][0]["value"], 0.8, 1e-12);
+}
+
+TEST(SessionMetrics, ReportATipThatPushesOnAgainstTheWall)
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.05);
+  session.move(0.9, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);  // shorter than a second
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.05);
+  EXPECT_TRUE(session.metrics.errors().empty());
+  const double begin = session.time();
+  session.move(3.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.4);
+  session.move(0.5, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.05);
+  session.move(0.5, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.05);
+  session.move(2.0, {{0, 0, 0.1}, {0, 0, 0.12}}, {0.1, 0.12}, 0.4);  // the blunt tip of the catheter
+  const std::vector<SessionError>& errors = session.metrics.errors();
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0].kind, "sustained force of a tip");
+  EXPECT_EQ(errors[0].instrument, 0);
+  EXPECT_NEAR(errors[0].time, begin, 1.5 / SessionMetrics::kRate);
+  EXPECT_EQ(errors[0].value, 0.4);
+}
+
+TEST(SessionMetrics, OfTheForcesOfATipHaveTheLimitsOfTheScene)
+{
+  scene::Scene scene = procedure::sceneWith("    - {wait: 1}\n");
+  scene.errors.emplace();
+  scene.errors->tip_force = 0.35;
+  scene.errors->perforation_force = 0.2;
+  Session session(scene);
+  session.move(3.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  ASSERT_EQ(session.metrics.errors().size(), 1U);
+  EXPECT_EQ(session.metrics.errors()[0].kind, "risk of perforation");
+}
+
+constexpr double kLong = 3.0;  // longer than ErrorLimits::support_time [s]
+
+/** Session whose catheter rests in the goal branch, with its wire ahead. */
+Session engaged()
+{
+  Session session;
+  session.move(1.0, {{0, 0, 0.15}, {0, 0, 0.1}}, {0.15, 0.1});
+  session.move(1.0, {{-0.05, 0, 0.15}, {-0.02, 0, 0.15}}, {0.2, 0.17});
+  session.move(kLong, {{-0.05, 0, 0.15}, {-0.02, 0, 0.15}}, {0.2, 0.17});
+  return session;
+}
+
+TEST(SessionMetrics, ReportCatheterAndWireThatLeaveAnOstiumTogether)
+{
+  Session session = engaged();
+  session.move(0.5, {{0, 0, 0.12}, {0, 0, 0.1}}, {0.2, 0.17});  // the handles rest
+  EXPECT_TRUE(session.metrics.errors().empty()) << "it may come back";
+  session.move(kLong, {{0, 0, 0.12}, {0, 0, 0.1}}, {0.2, 0.17});
+  ASSERT_EQ(session.metrics.errors().size(), 1U);
+  EXPECT_EQ(session.metrics.errors()[0].kind, "support lost");
+  EXPECT_EQ(session.metrics.errors()[0].instrument, 1);
+}
+
+TEST(SessionMetrics, DoNotReportACatheterWhoseWireStaysInTheBranch)
+{
+  Session session = engaged();
+  session.move(0.5, {{-0.05, 0, 0.15}, {0, 0, 0.1}}, {0.2, 0.17});
+  session.move(kLong, {{-0.05, 0, 0.15}, {0, 0, 0.1}}, {0.2, 0.17});
+  EXPECT_TRUE(session.metrics.errors().empty());
+}
+
+TEST(SessionMetrics, DoNotReportACatheterThatIsWithdrawn)
+{
+  Session session = engaged();
+  session.move(1.0, {{0, 0, 0.15}, {0, 0, 0.1}}, {0.15, 0.1});
+  session.move(kLong, {{0, 0, 0.15}, {0, 0, 0.1}}, {0.15, 0.1});
+  EXPECT_TRUE(session.metrics.errors().empty());
+}
+
+TEST(SessionMetrics, DoNotReportACatheterWithoutAWireAhead)
+{
+  Session session = engaged();
+  session.move(1.0, {{0, 0, 0.05}, {-0.02, 0, 0.15}}, {0.05, 0.17});
+  session.move(1.0, {{0, 0, 0.05}, {0, 0, 0.1}}, {0.05, 0.17});
+  session.move(kLong, {{0, 0, 0.05}, {0, 0, 0.1}}, {0.05, 0.17});
+  EXPECT_TRUE(session.metrics.errors().empty());
 }
 
 TEST(SessionMetrics, AttributesOnlyNearbyContactsToTheForemostTip)

@@ -141,7 +141,7 @@ std::vector<results::SessionError> MetricsRecorder::errors() const
     errors = metrics_->errors();
   for (const std::vector<Event>* events : {&events_, &risks_})
     for (const Event& event : *events)
-      if (event.kind != simulation::nameOf(simulation::TreatmentEvent::kStentPlaced))
+      if (results::isError(event.kind))
         errors.push_back({event.kind, event.instrument, event.time, 0.0, ""});
   std::stable_sort(errors.begin(), errors.end(),
                    [](const results::SessionError& a, const results::SessionError& b) { return a.time < b.time; });

@@ -283,6 +283,17 @@ struct RecordScene
   bool x_ray_frames = false;  ///< true: the bag contains every X-ray frame, at about 260 kB each before compression
 };
 
+/** Limits beyond which a session reports an error of the trainee (docs/PROCEDURES.md, "Errors"). They do not affect the
+ *  motion. */
+struct ErrorLimits
+{
+  double perforation_force = 0.5;    ///< force of a foremost guidewire's tip on the wall, in any step [N]
+  double tip_force = 0.1;            ///< force of the foremost tip that may not last [N]
+  double tip_force_time = 1.0;       ///< time for which it may be larger [s]
+  double support_time = 1.5;         ///< time for which catheter and wire may be out of the branch of their support [s]
+  double support_withdrawal = 5e-3;  ///< withdrawal of the catheter's handle from which on this is intended [m]
+};
+
 /** Scene: all inputs of a run. docs/SCENES.md lists the keys of its YAML file. */
 struct Scene
 {
@@ -307,6 +318,7 @@ struct Scene
   std::vector<sensor::SensorSettings> sensors;
   std::vector<robot::FaultSettings> faults;  ///< of the robot's drives
   RecordScene record;
+  std::optional<ErrorLimits> errors;  ///< empty: the defaults
   std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
   std::string resolved_yaml;          ///< canonical text of the scene, with overrides and included files merged
 

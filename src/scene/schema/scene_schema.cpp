@@ -54,6 +54,15 @@ void visitSampling(yaml::Fields& fields, SamplingScene& sampling, double wire_le
                   "is longer than half the wire; must be at most " + std::to_string(0.5 * wire_length) + " m");
 }
 
+void visitErrors(yaml::Fields& fields, ErrorLimits& errors)
+{
+  fields.number("perforation_force", errors.perforation_force, quantities::kWallForce, Range::positive());
+  fields.number("tip_force", errors.tip_force, quantities::kWallForce, Range::positive());
+  fields.number("tip_force_time", errors.tip_force_time, quantities::kReaction, Range::nonNegative());
+  fields.number("support_time", errors.support_time, quantities::kReaction, Range::nonNegative());
+  fields.number("support_withdrawal", errors.support_withdrawal, quantities::kInsertion, Range::positive());
+}
+
 void visitRecord(yaml::Fields& fields, RecordScene& record)
 {
   fields.number("pose_rate", record.pose_rate, quantities::kRate, Range::positive());
@@ -379,6 +388,12 @@ void visitScene(yaml::Fields& fields, Scene& scene)
   if (fields.reading() ? fields.has("faults") : !scene.faults.empty())
     visitFaults(fields, scene);
   fields.map("record", [&scene](yaml::Fields& record) { visitRecord(record, scene.record); });
+  if (fields.reading() ? fields.has("errors") : scene.errors.has_value())
+  {
+    if (!scene.errors)
+      scene.errors.emplace();
+    fields.map("errors", [&scene](yaml::Fields& errors) { visitErrors(errors, *scene.errors); });
+  }
   if (fields.reading())
     checkScene(fields, scene);
 }
