@@ -287,8 +287,8 @@ struct RecordScene
  *  motion. */
 struct ErrorLimits
 {
-  double perforation_force = 0.5;    ///< force of a foremost guidewire's tip on the wall, in any step [N]
-  double tip_force = 0.1;            ///< force of the foremost tip that may not last [N]
+  double perforation_force = 0.5;    ///< force of a guidewire's tip in any step, of another tip if it lasts [N]
+  double tip_force = 0.1;            ///< force of a foremost guidewire's tip that may not last [N]
   double tip_force_time = 1.0;       ///< time for which it may be larger [s]
   double support_time = 1.5;         ///< time for which catheter and wire may be out of the branch of their support [s]
   double support_withdrawal = 5e-3;  ///< withdrawal of the catheter's handle from which on this is intended [m]
