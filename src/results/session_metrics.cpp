@@ -217,7 +217,11 @@ void SessionMetrics::followExchanges(const Sample& sample)
 void SessionMetrics::followForces(const Sample& sample)
 {
   if (sample.observation.time < untrusted_until_)
+  {
+    pushing_ = -1;  // a push across a fault is not one push
+    push_error_ = -1;
     return;
+  }
   const int foremost = foremostOf(sample.observation);
   followPerforation(sample, foremost);
   followTipForce(sample, foremost);

@@ -254,8 +254,11 @@ private:
 /** Takes the place of an earlier view again. */
 bool takeAgain(const PlacedName& name, const DrawnBranch& drawn, const PictureView& view, PlaceSearch& search)
 {
-  return view.depth(name.end) > kSmallestDepth && view.depth(name.end) <= view.reach &&
-         search.take(drawn, view.project(name.end), name.offset);
+  if (view.depth(name.end) <= kSmallestDepth || view.depth(name.end) > view.reach)
+    return false;
+  const Eigen::Vector2d end = view.project(name.end);
+  return std::abs(end.x()) <= 0.5 * view.width && std::abs(end.y()) <= 0.5 * view.height &&
+         search.take(drawn, end, name.offset);
 }
 
 }  // namespace

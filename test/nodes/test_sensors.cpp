@@ -314,7 +314,11 @@ TEST_F(SensorsOfTheGraph, C_ASavedStateContinuesWithTheSameReadings)
     takeLines();
     EXPECT_TRUE(client_->step(kSteps, {velocity()}).success);
     EXPECT_TRUE(waitUntil(20.0, [] { return received() >= kSteps; }));
-    ros::WallDuration(0.5).sleep();
+    for (auto before = received() - 1; received() != before;)  // until no further ones come
+    {
+      before = received();
+      ros::WallDuration(1.0).sleep();
+    }
     return takeLines();
   };
   const Lines first = push();

@@ -9,6 +9,7 @@ trap 'rm -rf "$folder"' EXIT
 
 PYTHONPATH="$repository/test/scripts:$PYTHONPATH" /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
 import glob, hashlib, os, subprocess, sys
+import yaml
 from rviz_session import RvizSession, run
 folder, repository = sys.argv[1:]
 
@@ -37,7 +38,8 @@ with RvizSession(folder, repository + "/launch/lesson_bifurcation.launch", "expe
     session.launch.wait(timeout=90)
 assert hashes() == before, "rviz has written into the repository"
 copy = folder + "/ros/endovascular_sim/rviz/demo.rviz"
-assert "endovascular_sim/Tip" in open(copy).read(), "the copy was not saved"
+view = yaml.safe_load(open(copy))["Visualization Manager"]["Views"]["Current"]["Class"]
+assert view == "endovascular_sim/Tip", "the copy was not saved, its view is " + view
 for name in ("session.bag", "report.json", "metrics.json"):
     assert os.path.isfile(os.path.join(session.results, name)), name + " is missing"
 print("rviz closed without a question; the lesson ended with its recording")

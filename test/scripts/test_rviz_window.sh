@@ -22,7 +22,7 @@ output=$(window "$folder/configs/demo.rviz" --quality low --font-scale auto)
 [ "$output" = "-d $copy --disable-anti-aliasing
 $copy auto" ] || fail "unexpected start of rviz: $output"
 for value in "Frame Rate: 15" "Sides: 6" "Near Wall Opacity: 0"; do
-  grep -q "$value" "$copy" || fail "low quality lacks '$value'"
+  grep -qx " *$value" "$copy" || fail "low quality lacks '$value'"
 done
 for config in "$folder"/configs/*.rviz; do
   window "$config" --quality low > "$folder/output"

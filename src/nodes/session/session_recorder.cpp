@@ -38,7 +38,14 @@ std::string textOf(const results::SessionError& error, const scene::Scene& scene
 {
   std::string text = error.kind + ": " + scene.instruments[static_cast<std::size_t>(error.instrument)].instrument.name;
   std::replace(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(error.kind.size()), '_', ' ');
-  return error.unit.empty() ? text : text + formatted(", %.1f %s", error.value, error.unit.c_str());
+  if (error.unit == "m")
+    return text + formatted(", %.1f mm", 1e3 * error.value);
+  return error.unit.empty() ? text : text + formatted(", %.2f %s", error.value, error.unit.c_str());
+}
+
+bool isSame(const results::SessionError& a, const results::SessionError& b)
+{
+  return a.kind == b.kind && a.instrument == b.instrument && a.time == b.time;
 }
 
 }  // namespace
@@ -242,20 +249,34 @@ void SessionRecorder::update()
   publishProgress();
 }
 
-/** Publishes the number of recorded steps on change, unless the disk is too slow for them. */
+/** Takes over the errors that were found since the last call. Those of a closed recording are in its report. */
+void SessionRecorder::updateErrors()
+{
+  if (stopped_)
+    return;
+  std::vector<results::SessionError> errors = recording_->results.metrics().errors();
+  if (errors.empty())
+    progress_.last_error.clear();
+  for (const results::SessionError& error : errors)
+    if (std::none_of(errors_.begin(), errors_.end(),
+                     [&](const results::SessionError& known) { return isSame(known, error); }))
+      progress_.last_error = textOf(error, scene_);
+  errors_ = std::move(errors);
+}
+
+/** Publishes the number of recorded steps and of errors on change, unless the disk is too slow for them. */
 void SessionRecorder::publishProgress()
 {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  if ((progress_.run == run_ && progress_.steps == sequence_.handled()) ||
+  updateErrors();
+  if ((progress_.run == run_ && progress_.steps == sequence_.handled() && progress_.errors == errors_.size()) ||
       (progress_.run == run_ && (now - reported_).toSec() < kProgressPeriod) || recording_->bag.isHalfFull())
     return;
   reported_ = now;
   progress_.header.stamp = ros::Time::now();
   progress_.run = run_;
   progress_.steps = sequence_.handled();
-  const std::vector<results::SessionError> errors = recording_->results.metrics().errors();
-  progress_.errors = static_cast<std::uint32_t>(errors.size());
-  progress_.last_error = errors.empty() ? std::string() : textOf(errors.back(), scene_);
+  progress_.errors = static_cast<std::uint32_t>(errors_.size());
   progress_publisher_.publish(progress_);
 }
 

@@ -58,6 +58,7 @@ private:
   /** Closes the bag and writes the report; the next run begins a further recording. */
   void stop();
   bool closeRecording();
+  void updateErrors();
   void publishProgress();
 
   ros::NodeHandle node_;
@@ -71,10 +72,11 @@ private:
   bool finished_ = false;       ///< the session has ended
   bool stopped_ = false;        ///< the recording is closed, and no further one has begun
   bool complete_ = true;
-  double logged_time_ = 0.0;   ///< simulated time of the last progress message [s]
-  ros::SteadyTime diagnosed_;  ///< last publication of diagnostics
-  ros::SteadyTime reported_;   ///< last publication of the progress
-  SessionProgress progress_;   ///< as published
+  double logged_time_ = 0.0;                   ///< simulated time of the last progress message [s]
+  ros::SteadyTime diagnosed_;                  ///< last publication of diagnostics
+  ros::SteadyTime reported_;                   ///< last publication of the progress
+  SessionProgress progress_;                   ///< as published, and the newest error
+  std::vector<results::SessionError> errors_;  ///< of the recording, as far as they are found
   ros::Publisher progress_publisher_;
   diagnostic_updater::Updater diagnostics_;
   // Last, so that they end before the members that their callbacks use.

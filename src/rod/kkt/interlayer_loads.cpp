@@ -249,7 +249,7 @@ void InterlayerLoads::updateBoreLoads()
     const double load = node.wall > 0.0 ? bore_.load()[i] / node.wall : 0.0;
     bore_load_[i].value = load;
     bore_load_[i].tension = 0.5 * (nodes_[i - 1].tension + node.tension);
-    bore_load_[i].slope = load > 0.0 ? node.curvature.dot(node.shift) / (node.wall * node.shift.norm()) : 0.0;
+    bore_load_[i].slope = load > 0.0 ? node.curvature.dot(node.shift) / node.shift.norm() : 0.0;
   }
 }
 

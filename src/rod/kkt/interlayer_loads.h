@@ -42,7 +42,7 @@ public:
               State& state);
 
 private:
-  /** Load of a solution in the bore, near the tension of that solution. */
+  /** Load of a solution in the bore, near the tension of that solution; the slope is that of a covered node. */
   struct BoreLoad
   {
     double value = 0.0;    ///< at the tension of the solution, per length of wall [N/m]

@@ -18,7 +18,8 @@ namespace endovascular_sim::rviz_plugin
 namespace
 {
 
-constexpr int kSettling = 500;  // time until the window has its size [ms]
+constexpr auto kQuit = "lesson_quit";  // name of a shortcut
+constexpr int kSettling = 500;         // time until the window has its size [ms]
 
 void resizeColumns(QMainWindow& window)
 {
@@ -62,10 +63,19 @@ void arrangeForLesson(QWidget& part)
   if (window == nullptr || QApplication::primaryScreen() == nullptr)
     return;
   fill(*window, true);
-  // The shortcuts of a hidden menu have no effect.
-  QObject::connect(new QShortcut(QKeySequence("Ctrl+Q"), window), &QShortcut::activated, window, &QWidget::close);
+  if (window->findChild<QShortcut*>(kQuit) != nullptr)
+    return;
+  // The shortcuts of a hidden menu have no effect; those of a shown one exclude equal ones.
+  auto* quit = new QShortcut(QKeySequence("Ctrl+Q"), window);
+  quit->setObjectName(kQuit);
+  QObject::connect(quit, &QShortcut::activated, window, &QWidget::close);
   QObject::connect(new QShortcut(QKeySequence("F10"), window), &QShortcut::activated, window,
-                   [window] { fill(*window, !window->menuBar()->isHidden()); });
+                   [window, quit]
+                   {
+                     const bool fills = !window->menuBar()->isHidden();
+                     quit->setEnabled(fills);
+                     fill(*window, fills);
+                   });
 }
 
 }  // namespace endovascular_sim::rviz_plugin

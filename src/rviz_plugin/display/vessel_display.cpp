@@ -183,6 +183,7 @@ void VesselDisplay::subscribe()
                                                           [this](const VesselCentrelineConstPtr& message)
                                                           {
                                                             centreline_message_ = message;
+                                                            names_.clear();
                                                             are_names_new_ = true;
                                                           });
             force_subscriber_ = nodes::subscribeGuarded<ContactForceMap>(update_nh_, force_topic_->getTopicStd(), 1,

@@ -23,8 +23,9 @@ std::string instrumentInTheWay(const SessionState& state, const InstrumentSummar
 {
   for (std::size_t k = 0; k < state.scene.instruments.size(); ++k)
   {
-    const std::string& name = state.scene.instruments[k].shape.name;
-    if (at(state.wire.insertion, k) >= 0.0 &&
+    const InstrumentSummary& other = state.scene.instruments[k];
+    const std::string& name = other.shape.name;
+    if (at(state.wire.insertion, k) > other.outside_insertion + kAtStop &&
         std::find(of.conflicts.begin(), of.conflicts.end(), name) != of.conflicts.end())
       return name;
   }
@@ -39,7 +40,7 @@ std::string obstacleOfInsertion(const SessionState& state, const InstrumentSumma
     const std::string other = instrumentInTheWay(state, summary);
     if (!other.empty())
       return "waits outside: " + other + " is in the way; pull it out first";
-    if (push < 0.0)
+    if (push < 0.0 && insertion <= summary.outside_insertion + kAtStop)
       return "is out completely";
   }
   if (push > 0.0 && summary.largest_insertion > 0.0 && insertion >= summary.largest_insertion - kAtStop)

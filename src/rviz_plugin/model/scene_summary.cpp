@@ -25,13 +25,18 @@ visualization::InstrumentShape shapeOf(const instrument::Instrument& instrument)
   return shape;
 }
 
+/** Longest edge of the nodes, which all instruments share [m]. */
+double edgeOf(const scene::Scene& scene)
+{
+  return scene.sampling.kind == scene::SamplingKind::kAdaptive
+             ? scene.sampling.max_edge
+             : scene.longest() / std::max(scene.sampling.nodes - 1, 1);
+}
+
 /** Insertion at which the proximal end fills the introducer's guide (rod::maxInsertion()). */
 double largestInsertion(const scene::Scene& scene, double length)
 {
-  const double edge = scene.sampling.kind == scene::SamplingKind::kAdaptive
-                          ? scene.sampling.max_edge
-                          : length / std::max(scene.sampling.nodes - 1, 1);
-  return length - scene.solver.guide_length - 3.0 * edge;
+  return length - scene.solver.guide_length - 3.0 * edgeOf(scene);
 }
 
 /** Names of the instruments that neither fit into another one nor take it into their lumen. */
@@ -96,6 +101,7 @@ SceneSummary sceneSummary(const SessionInfo& info)
   {
     InstrumentSummary& instrument = summary.instruments.emplace_back(summaryOf(scene.instruments[k]));
     instrument.largest_insertion = largestInsertion(scene, instrument.length);
+    instrument.outside_insertion = -scene.solver.guide_length - 2.0 * edgeOf(scene);  // rod::outsideInsertion()
     instrument.conflicts = conflictsOf(scene, k);
   }
   if (scene.procedure)

@@ -16,6 +16,7 @@ struct InstrumentSummary
   visualization::InstrumentShape shape;  ///< with the name
   double length = 0.0;                   ///< [m]
   double largest_insertion = 0.0;        ///< at which its proximal end stops it, about 1 mm [m]; 0: unknown
+  double outside_insertion = 0.0;        ///< at which its tip is out of the introducer [m]
   double force_limit = 0.0;              ///< axial force at which the grip slips or stops [N]
   double torque_limit = 0.0;             ///< torque at which it does [N·m]
   double largest_speed = 0.0;            ///< largest insertion speed [m/s]

@@ -230,7 +230,7 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
     branch_found_ = Clock::now();
   }
   if (message->time < state_.wire.time)
-    state_.peak_force.clear();  // a further run
+    beginRun(message->time);
   noteForces(message->hand_force);
   state_.wire = *message;
   state_.wire.nodes.clear();
@@ -238,6 +238,18 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
   state_.wire.contact_force.clear();
   state_.has_wire = true;
   wire_received_ = Clock::now();
+}
+
+/** Forgets what was of the run before. @param time simulated time of the new one [s] */
+void SessionClient::beginRun(double time)
+{
+  state_.peak_force.clear();
+  state_.last_error.clear();
+  if (state_.step.time > time + kSameRun)
+  {
+    state_.has_step = false;
+    state_.step = ProcedureStep();
+  }
 }
 
 void SessionClient::receiveSample(const SessionSampleConstPtr& message)

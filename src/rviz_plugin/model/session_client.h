@@ -70,6 +70,7 @@ private:
   void subscribe();
   void receiveScene(const SessionInfoConstPtr& info);
   void receiveWire(const RodStateVisualConstPtr& message);
+  void beginRun(double time);
   void receiveSample(const SessionSampleConstPtr& message);
   void receiveStep(const ProcedureStepConstPtr& message);
   void receiveProgress(const SessionProgressConstPtr& message);

@@ -229,6 +229,7 @@ void DriveBox::setPressure(double target)
     return;
   const double pressure = target < 0.0 ? kVacuum : target * units::kAtmosphere;
   port_.changePressure(state_.scene.instruments[index].shape.name, pressure - state_.wire.pressure[index]);
+  state_.wire.pressure[index] = pressure;  // a second target before the next state is a difference from this one
 }
 
 int DriveBox::speedSetting() const
