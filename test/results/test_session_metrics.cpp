@@ -52,6 +52,7 @@ public:
         sample.observation.instruments.push_back(view);
       }
       procedure::markCovered(sample.observation);
+      sample.faults.stale_steps = std::exchange(stale_steps, 0);
       metrics.add(sample);
     }
   }
@@ -60,7 +61,8 @@ public:
   double time() const { return time_; }
 
   SessionMetrics metrics;
-  double peak_hand_force = 0.0;  ///< of the wire, in all steps between two samples [N]
+  std::uint64_t stale_steps = 0;  ///< before the next sample [1]
+  double peak_hand_force = 0.0;   ///< of the wire, in all steps between two samples [N]
 
 private:
   double time_ = 0.0;
@@ -239,6 +241,17 @@ TEST(SessionMetrics, ReportATipThatPushesOnAgainstTheWall)
   EXPECT_EQ(errors[0].instrument, 0);
   EXPECT_NEAR(errors[0].time, begin, 1.5 / SessionMetrics::kRate);
   EXPECT_EQ(errors[0].value, 0.4);
+}
+
+TEST(SessionMetrics, DoNotJoinThePushesBeforeAndAfterAFaultOfTheSimulator)
+{
+  Session session;
+  session.move(0.7, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  session.stale_steps = 1;
+  session.move(0.7, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  EXPECT_TRUE(session.metrics.errors().empty());
+  session.move(1.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  EXPECT_EQ(session.metrics.errors().size(), 1U);
 }
 
 TEST(SessionMetrics, OfTheForcesOfATipHaveTheLimitsOfTheScene)

@@ -23,6 +23,7 @@ SessionState running()
     instrument->force_limit = 5.0;
     instrument->torque_limit = 0.05;
     instrument->largest_insertion = 0.65;
+    instrument->outside_insertion = -0.027;
     state.scene.instruments.push_back(*instrument);
   }
   state.has_wire = true;
@@ -40,6 +41,14 @@ TEST(MotionObstacle, NamesTheInstrumentInTheWay)
   state.wire.insertion[1] = -0.027;
   EXPECT_EQ(motionObstacle(state, 0, 0.02), "");
   EXPECT_EQ(motionObstacle(state, 0, -0.02), "is out completely");
+}
+
+TEST(MotionObstacle, AnInstrumentIsInTheWayUntilItIsOutCompletely)
+{
+  SessionState state = running();
+  state.wire.insertion[1] = -0.01;
+  EXPECT_EQ(motionObstacle(state, 0, 0.02), "waits outside: wire is in the way; pull it out first");
+  EXPECT_EQ(motionObstacle(state, 1, -0.02), "");
 }
 
 TEST(MotionObstacle, NamesTheEndOfTheInstrumentForAPushOnly)

@@ -59,6 +59,7 @@ TEST(SceneSummary, KnowsTheEndOfAnInstrumentAndItsBalloon)
   const InstrumentSummary& wire = instrument(scene, "wire");
   EXPECT_NEAR(wire.length, 0.8, 1e-9);
   EXPECT_NEAR(wire.largest_insertion, 0.8 - 0.019 - 3 * 0.004, 1e-9);
+  EXPECT_NEAR(wire.outside_insertion, -0.019 - 2 * 0.004, 1e-9);
   const InstrumentSummary& stent = instrument(scene, "stent");
   EXPECT_TRUE(stent.has_balloon);
   EXPECT_GT(stent.balloon.nominalDiameter(), 2e-3);
