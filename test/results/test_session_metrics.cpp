@@ -1,5 +1,8 @@
 #include "results/session_metrics.h"
 
+#include <cstdint>
+#include <utility>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
