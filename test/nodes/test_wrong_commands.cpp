@@ -67,6 +67,13 @@ public:
     spinner_.start();
   }
 
+  /** True when the simulation receives the commands of both instruments. */
+  bool isConnected() const
+  {
+    return std::all_of(publishers_.begin(), publishers_.end(),
+                       [](const ros::Publisher& publisher) { return publisher.getNumSubscribers() > 0; });
+  }
+
   void send(std::size_t instrument, const Command& command) { publishers_[instrument].publish(command); }
 
   /** Sends the correct commands of both instruments once. */
@@ -284,6 +291,7 @@ protected:
   void SetUp() override
   {
     ASSERT_TRUE(waitUntil(60.0, [&] { return robot_.steps() > 0; })) << "the simulation runs";
+    ASSERT_TRUE(waitUntil(60.0, [&] { return robot_.isConnected(); })) << "the simulation takes commands";
     ASSERT_TRUE(robot_.holdUntil([&] { return robot_.isHeld(); }));
     ASSERT_TRUE(robot_.holdFor(50));
   }
