@@ -15,7 +15,7 @@ namespace
 constexpr double kSmallestDepth = 5e-3;  // of a point in the picture [m]
 constexpr double kSpacing = 4.0;         // of the points of a drawn branch [pixels]
 constexpr int kMostParts = 64;           // of a segment of a centreline
-constexpr double kMargin = 2.0;          // by which the own branch is nearer, and between names [pixels]
+constexpr double kMargin = 2.0;          // between names; also, least lead of the own branch over the next one [pixels]
 constexpr int kDirections = 16;          // of a leader
 constexpr double kShares[] = {0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2, 0.9, 0.1};  // ends of a leader along the branch
 constexpr double kLengths[] = {0.2, 0.5, 1.0,

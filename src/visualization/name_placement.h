@@ -73,8 +73,8 @@ struct PlacedName
  *  - of all branches in the picture the own one is the nearest to a name, measured to the drawn walls;
  *  - names overlap neither each other, nor leaders, nor the legends, and leaders do not cross.
  *
- *  A name is missing where no place satisfies this, and beside a branch that is shorter in the picture than the name is
- *  high. The longest branches in the picture come first.
+ *  A name is missing where no place satisfies this. It is also missing beside a branch that is shorter in the picture
+ *  than the name is high. The longest branches in the picture come first.
  *  @param before names of an earlier view; a name keeps its offset where that is still possible */
 std::vector<PlacedName> placeNames(const std::vector<BranchToName>& branches, const PictureView& view,
                                    const std::vector<PlacedName>& before = {});

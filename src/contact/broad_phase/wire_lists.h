@@ -17,7 +17,7 @@ public:
   WireLists();
 
   /** Updates the lists of all nodes. Results of a search do not depend on earlier queries.
-   *  @param deviation of the wall from its facets, by which lists reach farther [m]
+   *  @param deviation largest distance of the wall from its facets; it is added to every cutoff [m]
    *  @return number of lists that were built */
   std::size_t update(const Bvh& bvh, const WallBounds& bounds, const Query& query, double deviation);
 

@@ -268,11 +268,13 @@ void SessionRecorder::updateErrors()
 void SessionRecorder::publishProgress()
 {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  updateErrors();
-  if ((progress_.run == run_ && progress_.steps == sequence_.handled() && progress_.errors == errors_.size()) ||
-      (progress_.run == run_ && (now - reported_).toSec() < kProgressPeriod) || recording_->bag.isHalfFull())
+  const bool is_new_run = progress_.run != run_;
+  if ((!is_new_run && (now - reported_).toSec() < kProgressPeriod) || recording_->bag.isHalfFull())
     return;
   reported_ = now;
+  updateErrors();
+  if (!is_new_run && progress_.steps == sequence_.handled() && progress_.errors == errors_.size())
+    return;
   progress_.header.stamp = ros::Time::now();
   progress_.run = run_;
   progress_.steps = sequence_.handled();

@@ -74,7 +74,7 @@ private:
   bool complete_ = true;
   double logged_time_ = 0.0;                   ///< simulated time of the last progress message [s]
   ros::SteadyTime diagnosed_;                  ///< last publication of diagnostics
-  ros::SteadyTime reported_;                   ///< last publication of the progress
+  ros::SteadyTime reported_;                   ///< last time at which the progress was examined
   SessionProgress progress_;                   ///< as published, and the newest error
   std::vector<results::SessionError> errors_;  ///< of the recording, as far as they are found
   ros::Publisher progress_publisher_;

@@ -1,29 +1,19 @@
 #include "rviz_plugin/widget/name_picture.h"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 #include <QApplication>
 #include <QPainter>
+
+#include "test/rviz_plugin/widget/widget_test.h"
 
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
 
-class NamePictureTest : public ::testing::Test
+class NamePictureTest : public WidgetTest
 {
 protected:
-  static void SetUpTestSuite()
-  {
-    setenv("QT_QPA_PLATFORM", "offscreen", 1);
-    static int count = 1;
-    static char name[] = "test_rviz_plugin";
-    static char* arguments[] = {name, nullptr};
-    if (QApplication::instance() == nullptr)
-      new QApplication(count, arguments);  // lives as long as the program
-  }
-
   NamePictureTest()
   {
     view.eye = {0.0, -1.0, 0.0};

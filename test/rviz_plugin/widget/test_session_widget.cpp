@@ -1,6 +1,5 @@
 #include "rviz_plugin/widget/session_widget.h"
 
-#include <cstdlib>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include <QtTest/QTest>
 
 #include "rviz_plugin/widget/force_gauge.h"
+#include "test/rviz_plugin/widget/widget_test.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -43,19 +43,9 @@ public:
   int confirmed = 0;
 };
 
-class SessionWidgetTest : public ::testing::Test
+class SessionWidgetTest : public WidgetTest
 {
 protected:
-  static void SetUpTestSuite()
-  {
-    setenv("QT_QPA_PLATFORM", "offscreen", 1);
-    static int count = 1;
-    static char name[] = "test_rviz_plugin";
-    static char* arguments[] = {name, nullptr};
-    if (QApplication::instance() == nullptr)
-      new QApplication(count, arguments);  // lives as long as the program
-  }
-
   SessionWidgetTest()
   {
     InstrumentSummary wire;

@@ -1,28 +1,18 @@
 #include "rviz_plugin/widget/x_ray_view.h"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 #include <QApplication>
+
+#include "test/rviz_plugin/widget/widget_test.h"
 
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
 
-class XRayViewTest : public ::testing::Test
+class XRayViewTest : public WidgetTest
 {
 protected:
-  static void SetUpTestSuite()
-  {
-    setenv("QT_QPA_PLATFORM", "offscreen", 1);
-    static int count = 1;
-    static char name[] = "test_rviz_plugin";
-    static char* arguments[] = {name, nullptr};
-    if (QApplication::instance() == nullptr)
-      new QApplication(count, arguments);  // lives as long as the program
-  }
-
   XRayViewTest()
   {
     view.resize(600, 800);
