@@ -62,6 +62,12 @@ private:
     value = byte == 1;
   }
 
+  void add(std::string& bytes)
+  {
+    const std::size_t size = resized(bytes);
+    raw(bytes.data(), size);
+  }
+
   template <typename T, int kRows>
   void add(Eigen::Matrix<T, kRows, 1>& vector)
   {

@@ -1,14 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include "common/archive.h"
 #include "geometry/triangle_mesh.h"
 #include "intervention/balloon_load.h"
-
-namespace endovascular_sim
-{
-class Archive;
-}
 
 namespace endovascular_sim::intervention
 {
@@ -35,9 +32,26 @@ public:
   /** True if the wall has been stretched beyond the critical stretch anywhere, as last reported. */
   virtual bool atRisk() const = 0;
 
-  /** Saves or loads the state of the wall and of its contact detection. Loading requires the initial wall.
-   *  @throws std::logic_error if the wall belongs to another process */
-  virtual void archive(Archive& archive) = 0;
+  /** State of the wall and of its contact detection.
+   *  @throws InputError when another process keeps the wall and does not respond */
+  virtual std::string save() = 0;
+
+  /** Continues from a state of save(). After an exception the wall is undefined until the next load() or reset().
+   *  @throws ArchiveError for a state that is damaged or of another vessel
+   *  @throws InputError as save() */
+  virtual void load(const std::string& state) = 0;
+
+  /** Returns to the initial wall and its version. @throws InputError as save() */
+  virtual void reset() = 0;
+
+  /** Saves the state into an archive, or loads it from there. */
+  void archive(Archive& archive)
+  {
+    std::string state = archive.reading() ? std::string() : save();
+    archive(state);
+    if (archive.reading())
+      load(state);
+  }
 };
 
 }  // namespace endovascular_sim::intervention

@@ -20,6 +20,13 @@ struct WallDisplacement
   std::vector<Eigen::Vector3d> positions;  ///< new positions [m]
 };
 
+/** Displacement that leads from vertices to others of the same mesh.
+ *  @param from, to of equal length [m] */
+WallDisplacement displacementBetween(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to);
+
+/** Moves vertices. @param displacement with indices of @p vertices */
+void move(const WallDisplacement& displacement, std::vector<Eigen::Vector3d>& vertices);
+
 /** Saves or loads a wall displacement. */
 void archive(Archive& archive, WallDisplacement& displacement);
 

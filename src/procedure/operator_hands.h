@@ -21,7 +21,10 @@ struct OperatorHand
 
   void archive(Archive& archive)
   {
-    archive(insertion, rotation, speed, turn_speed, target_speed, target_turn_speed, pressure);
+    bool was_scripted = scripted;
+    archive(was_scripted, insertion, rotation, speed, turn_speed, target_speed, target_turn_speed, pressure);
+    if (scripted && !was_scripted)
+      throw ArchiveError("was saved while a person drove an instrument, which the scripted operator cannot continue");
   }
 };
 

@@ -100,12 +100,23 @@ std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
   return marks;
 }
 
-nlohmann::ordered_json toJson(const std::vector<Mark>& marks)
+std::size_t stepsBefore(const SessionMetrics& metrics)
+{
+  if (metrics.samples().empty())
+    return 0;
+  const double begin = metrics.samples().front().observation.time;
+  const auto isBefore = [begin](const procedure::StepRecord& record)
+  { return record.outcome == procedure::Progress::kDone && record.end < begin; };
+  return static_cast<std::size_t>(std::count_if(metrics.steps().begin(), metrics.steps().end(), isBefore));
+}
+
+nlohmann::ordered_json toJson(const std::vector<Mark>& marks, std::size_t steps_before)
 {
   using Json = nlohmann::ordered_json;
   if (marks.empty())
     return nullptr;
-  Json json = {{"passed", std::all_of(marks.begin(), marks.end(), [](const Mark& mark) { return mark.passed; })}};
+  Json json = {{"from_step", steps_before + 1},
+               {"passed", std::all_of(marks.begin(), marks.end(), [](const Mark& mark) { return mark.passed; })}};
   json["marks"] = Json::array();
   for (const Mark& mark : marks)
     json["marks"].push_back({{"mark", mark.name},
@@ -116,7 +127,7 @@ nlohmann::ordered_json toJson(const std::vector<Mark>& marks)
   return json;
 }
 
-std::string verdict(const std::vector<Mark>& marks)
+std::string verdict(const std::vector<Mark>& marks, std::size_t steps_before)
 {
   if (marks.empty())
     return "";
@@ -131,7 +142,8 @@ std::string verdict(const std::vector<Mark>& marks)
     else
       failures += mark.name + " " + text(mark.value, mark.unit) + ", at most " + text(mark.limit, mark.unit);
   }
-  return failures.empty() ? "lesson passed" : "lesson not passed:" + failures;
+  const std::string part = steps_before == 0 ? "" : " from step " + std::to_string(steps_before + 1) + " on";
+  return failures.empty() ? "lesson passed" + part : "lesson not passed" + part + ":" + failures;
 }
 
 }  // namespace endovascular_sim::results

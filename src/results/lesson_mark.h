@@ -26,10 +26,16 @@ struct Mark
  *  @return empty without pass marks */
 std::vector<Mark> lessonMarks(const SessionMetrics& metrics);
 
-/** Marks as JSON: {"passed": all of them, "marks": [...]}; null without marks. */
-nlohmann::ordered_json toJson(const std::vector<Mark>& marks);
+/** Number of steps that were done before the recording, which then begins with a saved state [1]. */
+std::size_t stepsBefore(const SessionMetrics& metrics);
 
-/** Verdict in one line, e.g. "not passed: procedure time 95.0 s, at most 90.0 s". Empty without marks. */
-std::string verdict(const std::vector<Mark>& marks);
+/** Marks as JSON: {"from_step": first recorded one, "passed": all marks, "marks": [...]}; null without marks.
+ *  @param steps_before see stepsBefore() */
+nlohmann::ordered_json toJson(const std::vector<Mark>& marks, std::size_t steps_before);
+
+/** Verdict in one line, e.g. "lesson not passed: wrong branches 3, at most 2" or "lesson passed from step 6 on". Empty
+ * without marks.
+ *  @param steps_before see stepsBefore() */
+std::string verdict(const std::vector<Mark>& marks, std::size_t steps_before);
 
 }  // namespace endovascular_sim::results

@@ -389,7 +389,7 @@ Json SessionMetrics::json() const
   json["fluoroscopy_time"] = scene_.fluoroscopy ? activeTime() : 0.0;
   json["instrument_exchanges"] = exchanges_;
   if (const std::vector<Mark> marks = lessonMarks(*this); !marks.empty())
-    json["lesson"] = toJson(marks);
+    json["lesson"] = toJson(marks, stepsBefore(*this));
   const std::vector<WrongBranch> stays = wrongBranches();
   json["steps"] = stepsJson(stays);
   json["instruments"] = Json::array();

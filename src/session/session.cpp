@@ -96,7 +96,6 @@ Session::Session(std::shared_ptr<const World> world, SessionSettings settings)
     throw std::invalid_argument("Session: contacts and wall need a scene with a vessel");
   if (settings_.contacts && !settings_.wall && simulation::hasBalloon(world_->scene()))
     throw std::invalid_argument("Session: with contacts of its own, a scene with a balloon needs a wall, too");
-  initial_wall_ = settings_.wall ? settings_.wall->version() : 0;
   check_every_ = stepsBetweenChecks(settings_, world_->scene());
   last_step_ = stepsIn(world_->scene().duration, world_->scene());
   start(begin(0));
@@ -119,16 +118,21 @@ Session::Run& Session::run() const
   return *run_;
 }
 
-/** New run from the beginning of the scene. */
-std::unique_ptr<Session::Run> Session::begin(std::uint64_t seed) const
+/** Scene with the varied start and procedure of a seed. */
+std::shared_ptr<const scene::Scene> Session::variedScene(std::uint64_t seed) const
 {
   std::shared_ptr<const scene::Scene> scene(world_, &world_->scene());
-  if (seed != 0)
-  {
-    scene = std::make_shared<const scene::Scene>(procedure::perturbed(*scene, settings_.spread, seed));
-    world_->requireStart(*scene);
-  }
-  return std::make_unique<Run>(world_, std::move(scene), seed, settings_);
+  if (seed == 0)
+    return scene;
+  scene = std::make_shared<const scene::Scene>(procedure::perturbed(*scene, settings_.spread, seed));
+  world_->requireStart(*scene);
+  return scene;
+}
+
+/** New run from the beginning of the scene, in the present wall. */
+std::unique_ptr<Session::Run> Session::begin(std::uint64_t seed) const
+{
+  return std::make_unique<Run>(world_, variedScene(seed), seed, settings_);
 }
 
 /** Makes a run the present one. */
@@ -145,9 +149,10 @@ void Session::start(std::unique_ptr<Run> run)
 void Session::reset(std::uint64_t seed)
 {
   run();
-  if (settings_.wall && settings_.wall->version() != initial_wall_)
-    throw std::logic_error("Session: a balloon has moved the wall, which the session does not own; open another one");
-  start(begin(seed));
+  std::shared_ptr<const scene::Scene> scene = variedScene(seed);  // a refused seed changes nothing
+  if (settings_.wall)
+    settings_.wall->reset();
+  start(std::make_unique<Run>(world_, std::move(scene), seed, settings_));
 }
 
 std::uint64_t Session::seed() const

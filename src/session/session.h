@@ -74,8 +74,7 @@ public:
   /** Returns to the beginning of the scene. The session is afterwards, bit for bit, as a new one.
    *  @param seed of the varied start and procedure (procedure::perturbed()); 0: the scene as it stands. It is the
    *         noise seed, too
-   *  @throws InputError if an instrument would penetrate the wall at the start
-   *  @throws std::logic_error when a balloon has moved the wall of SessionSettings::wall */
+   *  @throws InputError if an instrument would penetrate the wall at the start */
   void reset(std::uint64_t seed = 0);
 
   std::uint64_t seed() const;  ///< of the last reset, or of the loaded state
@@ -230,6 +229,7 @@ private:
   struct Run;
   struct Imaging;
 
+  std::shared_ptr<const scene::Scene> variedScene(std::uint64_t seed) const;
   std::unique_ptr<Run> begin(std::uint64_t seed) const;
   Run& run() const;
   void start(std::unique_ptr<Run> run);
@@ -240,7 +240,6 @@ private:
 
   std::shared_ptr<const World> world_;
   SessionSettings settings_;
-  std::uint64_t initial_wall_ = 0;  ///< version of SessionSettings::wall at the beginning
   std::uint64_t check_every_ = 1;   ///< steps between two searches for nodes outside the wall
   std::uint64_t last_step_ = 0;
   std::unique_ptr<Run> run_;          ///< null after the session was moved from

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "common/archive.h"
+#include "simulation/wall_state.h"
 
 namespace endovascular_sim::simulation
 {
 
 LocalDeformableWall::LocalDeformableWall(const vessel::Vessel& vessel, contact::Detector& detector)
-  : opening_(vessel, intervention::DilatationLaw{}), detector_(detector)
+  : opening_(vessel, intervention::DilatationLaw{}), detector_(detector), initial_(save())
 {
 }
 
@@ -26,34 +26,22 @@ void LocalDeformableWall::activate(std::uint64_t version)
 /** Displacement of the detector's wall from the initial vertices; the detector lags behind the opening. */
 intervention::WallDisplacement LocalDeformableWall::detectedDisplacement() const
 {
-  intervention::WallDisplacement detected;
-  const std::vector<Eigen::Vector3d>& vertices = detector_.wall().vertices;
-  const std::vector<Eigen::Vector3d>& initial = opening_.initialVertices();
-  for (std::size_t v = 0; v < initial.size(); ++v)
-    if (vertices[v] != initial[v])
-    {
-      detected.indices.push_back(static_cast<int>(v));
-      detected.positions.push_back(vertices[v]);
-    }
-  return detected;
+  return intervention::displacementBetween(opening_.initialVertices(), detector_.wall().vertices);
 }
 
-void LocalDeformableWall::archive(Archive& archive)
+std::string LocalDeformableWall::save()
 {
   intervention::WallDisplacement detected = detectedDisplacement();
-  if (archive.reading())
-  {
-    for (std::size_t k = 0; k < detected.indices.size(); ++k)
-      detected.positions[k] = opening_.initialVertices()[static_cast<std::size_t>(detected.indices[k])];
-    detector_.moveVertices(detected.indices, detected.positions, history_.base());
-  }
-  archive(opening_, history_, detected);
-  if (!archive.reading())
-    return;
-  const std::size_t vertices = opening_.initialVertices().size();
-  intervention::requireFit(detected, vertices);
-  for (const auto& pending : history_.pending())
-    intervention::requireFit(pending.displacement, vertices);
+  return wallState(opening_, history_, detected);
+}
+
+void LocalDeformableWall::load(const std::string& state)
+{
+  intervention::WallDisplacement detected = detectedDisplacement();
+  for (std::size_t k = 0; k < detected.indices.size(); ++k)
+    detected.positions[k] = opening_.initialVertices()[static_cast<std::size_t>(detected.indices[k])];
+  detector_.moveVertices(detected.indices, detected.positions, history_.base());
+  loadWallState(state, opening_, history_, detected);
   detector_.moveVertices(detected.indices, detected.positions, history_.base());
 }
 

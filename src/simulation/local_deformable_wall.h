@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "contact/detector.h"
 #include "intervention/deformable_wall.h"
@@ -9,11 +10,6 @@
 #include "scene/model/scene.h"
 #include "simulation/wall_history.h"
 #include "vessel/model/vessel.h"
-
-namespace endovascular_sim
-{
-class Archive;
-}
 
 namespace endovascular_sim::simulation
 {
@@ -32,7 +28,9 @@ public:
   const geometry::TriangleMesh* mesh() const override { return &opening_.mesh(); }
   bool atRisk() const override { return opening_.atRisk(); }
 
-  void archive(Archive& archive) override;
+  std::string save() override;
+  void load(const std::string& state) override;
+  void reset() override { load(initial_); }
 
 private:
   intervention::WallDisplacement detectedDisplacement() const;
@@ -40,6 +38,7 @@ private:
   intervention::VesselDilatation opening_;
   contact::Detector& detector_;
   WallHistory<intervention::WallDisplacement> history_;  ///< its base is the version that the detector searches
+  std::string initial_;                                  ///< state of the initial wall
 };
 
 /** True when an instrument of the scene has a balloon, which deforms the wall. */

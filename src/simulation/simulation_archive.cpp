@@ -19,7 +19,7 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr std::uint32_t kFormat = 8;       ///< incremented with every change of the saved data
+constexpr std::uint32_t kFormat = 9;       ///< incremented with every change of the saved data
 constexpr std::uint32_t kNamesWriter = 5;  ///< first format whose header names the version that wrote it
 
 /** First commits of the formats whose headers do not name the version that wrote them. */

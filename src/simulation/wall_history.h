@@ -46,6 +46,13 @@ public:
     return newest_;
   }
 
+  /** Forgets all displacements and begins with a version. */
+  void restartAt(std::uint64_t version)
+  {
+    newest_ = base_ = version;
+    pending_.clear();
+  }
+
   /** Raises the base to a version that was appended.
    *  @param apply called as apply(version, displacement) for every displacement on the way, in order */
   template <typename Apply>

@@ -28,6 +28,7 @@
 #include "scene/scene_file.h"
 #include "session/phase_pictures.h"
 #include "session/session.h"
+#include "session/step_states.h"
 #include "simulation/driven_hands.h"
 #include "simulation/instrument_tip.h"
 #include "simulation/simulation.h"
@@ -49,6 +50,7 @@ struct Options
   std::vector<std::string> overrides;
   std::string save_state;
   double save_at = NAN;  ///< simulated time of the saved state [s]
+  std::string save_steps;
   std::string from_state;
   std::string commands;
   std::vector<std::string> record;
@@ -92,6 +94,9 @@ void addOptions(tools::CommandLine& line, Options& options)
           ->check(tools::positiveNumber());
   save->needs(at);
   at->needs(save);
+  line.option("--save-steps", options.save_steps, "DIR",
+              "saves the state at the beginning of every step of the procedure: DIR/step_01.state and so on, an "
+              "exchange counted as two");
   CLI::Option* from = line.option("--from-state", options.from_state, "FILE",
                                   "starts from a state saved in the same scene; --seconds counts from it");
   line.option(
@@ -222,12 +227,20 @@ std::uint64_t stepsIn(double seconds, const scene::Scene& scene)
   return static_cast<std::uint64_t>(std::llround(seconds / scene.solver.time_step));
 }
 
-void saveState(const std::string& path, session::Session& session)
+void writeState(const std::string& path, const std::string& state)
 {
-  const std::string state = session.save();
   std::ofstream stream(path, std::ios::binary);
   if (!stream.write(state.data(), static_cast<std::streamsize>(state.size())).flush())
     throw writeError(path);
+}
+
+/** Saves the state if a step of the procedure has begun. */
+void saveStep(const std::string& folder, session::Session& session, session::StepStates& states)
+{
+  if (!states.follow(*session.scriptedOperator(), [&session] { return session.save(); }))
+    return;
+  createFolder(folder);
+  writeState(folder + formatted("/step_%02zu.state", states.present() + 1), *states.at(states.present()));
 }
 
 void loadState(const std::string& path, session::Session& session)
@@ -306,6 +319,7 @@ void run(const Options& options, session::Session& session, session::PhasePictur
   const std::uint64_t save_at = options.save_state.empty() ? 0 : stepsIn(options.save_at, scene);
   const auto row_every = static_cast<std::uint64_t>(
       std::max(1.0, std::round(1.0 / (scene.record.trajectory_rate * scene.solver.time_step))));
+  session::StepStates step_states;
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
   const std::uint64_t first = simulation.steps();
@@ -315,7 +329,9 @@ void run(const Options& options, session::Session& session, session::PhasePictur
     session.step();
     tables.addStep(simulation, session.stepSeconds());
     if (simulation.steps() == save_at)
-      saveState(options.save_state, session);
+      writeState(options.save_state, session.save());
+    if (!options.save_steps.empty() && session.scriptedOperator() != nullptr)
+      saveStep(options.save_steps, session, step_states);
     if (pictures != nullptr)
       pictures->update(session);
     if (simulation.steps() % row_every != 0 && simulation.steps() != session.lastStep())

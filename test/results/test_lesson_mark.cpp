@@ -41,7 +41,7 @@ TEST(LessonMark, IsPassedWithinAllLimits)
   EXPECT_EQ(marks[0].name, "steps not done");
   EXPECT_EQ(marks[1].name, "time from the first motion");
   EXPECT_EQ(marks[1].value, 89.0);
-  EXPECT_EQ(verdict(marks), "lesson passed");
+  EXPECT_EQ(verdict(marks, 0), "lesson passed");
   EXPECT_EQ(metrics.json()["lesson"]["passed"], true);
   EXPECT_NE(metricsPage(metrics).find("lesson passed"), std::string::npos);
 }
@@ -62,7 +62,7 @@ TEST(LessonMark, TimeBeforeTheFirstMotionDoesNotCount)
   }
   finish(metrics, 100.0);
   EXPECT_NEAR(lessonMarks(metrics)[1].value, 70.0, 1.5 / rate);
-  EXPECT_EQ(verdict(lessonMarks(metrics)), "lesson passed");
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)), "lesson passed");
 }
 
 TEST(LessonMark, NamesWhatIsNotPassed)
@@ -72,7 +72,7 @@ TEST(LessonMark, NamesWhatIsNotPassed)
   WallForceSummary forces;
   forces.whole.peak = 0.75;
   metrics.setWallForces(forces);
-  EXPECT_EQ(verdict(lessonMarks(metrics)),
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)),
             "lesson not passed: time from the first motion 95.0 s, at most 90.0 s; largest force on the wall 0.75 N, "
             "at most 0.50 N");
   EXPECT_EQ(metrics.json()["lesson"]["passed"], false);
@@ -81,7 +81,7 @@ TEST(LessonMark, NamesWhatIsNotPassed)
 TEST(LessonMark, IsNotPassedBeforeAllStepsAreDone)
 {
   SessionMetrics metrics = metricsWith("{time: 90}");
-  EXPECT_EQ(verdict(lessonMarks(metrics)), "lesson not passed: 1 steps not done");
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)), "lesson not passed: 1 steps not done");
   finish(metrics, 50.0, procedure::Progress::kRunning);
   EXPECT_FALSE(lessonMarks(metrics)[0].passed);
 }
@@ -100,8 +100,30 @@ TEST(LessonMark, CountsForcesOfEveryStepAndStaysInWrongBranches)
     metrics.add(sample);
   }
   finish(metrics, 2.0);
-  EXPECT_EQ(verdict(lessonMarks(metrics)),
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)),
             "lesson not passed: largest force on a handle 2.50 N, at most 2.00 N; wrong branches 1, at most 0");
+}
+
+TEST(LessonMark, NamesTheStepFromWhichTheRecordingBegins)
+{
+  SessionMetrics metrics = metricsWith("{wrong_branches: 2}");
+  for (const double time : {20.0, 20.05})
+  {
+    Sample sample;
+    sample.observation.time = time;
+    sample.observation.instruments.resize(2);
+    metrics.add(sample);
+  }
+  procedure::StepRecord before;
+  before.outcome = procedure::Progress::kDone;
+  before.end = 19.95;
+  procedure::StepRecord recorded = before;
+  recorded.begin = 20.0;
+  recorded.end = 30.0;
+  metrics.setSteps({before, recorded}, "");
+  EXPECT_EQ(stepsBefore(metrics), 1U);
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)), "lesson passed from step 2 on");
+  EXPECT_EQ(metrics.json()["lesson"]["from_step"], 2);
 }
 
 TEST(LessonMark, MeasuresTheRemainingStenosis)
@@ -111,14 +133,14 @@ TEST(LessonMark, MeasuresTheRemainingStenosis)
   LesionOutcome lesion;
   lesion.after.stenosis = 0.42;
   metrics.setLesions({lesion});
-  EXPECT_EQ(verdict(lessonMarks(metrics)), "lesson not passed: remaining stenosis 42.0 %, at most 30.0 %");
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)), "lesson not passed: remaining stenosis 42.0 %, at most 30.0 %");
 }
 
 TEST(LessonMark, IsMissingWithoutPassMarks)
 {
   SessionMetrics metrics = metricsWith("{}");
   EXPECT_TRUE(lessonMarks(metrics).empty());
-  EXPECT_EQ(verdict({}), "");
+  EXPECT_EQ(verdict({}, 0), "");
   EXPECT_FALSE(metrics.json().contains("lesson"));
 }
 

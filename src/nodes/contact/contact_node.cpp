@@ -81,6 +81,7 @@ void ContactNode::subscribe()
         receiveDisplacement(event.getConstMessage());
       },
       &queue_);
+  wall_service_ = node_.advertiseService(names::kTakeWall, &ContactNode::takeWall, this);
   if (ros::param::param("~local_line", true))
     line_ = std::make_unique<LineServer>(lineName(ros::master::getURI(), node_.resolveName(names::kContactSet)),
                                          [this](const std::uint8_t* frame, std::uint32_t size)
@@ -100,7 +101,7 @@ void ContactNode::subscribe()
 /** Adopts the first mesh, and the first mesh of a restarted vessel server; displacements keep it up to date. */
 void ContactNode::receiveVessel(const VesselMeshConstPtr& message)
 {
-  if (detector_ && message->version != 1)
+  if (detector_ && (message->version != 1 || follows_rod_))
     return;
   GetVessel vessel;
   // The latched mesh may be newer than the wall that the rod requests: the service also returns the versions between.
@@ -115,8 +116,64 @@ void ContactNode::receiveVessel(const VesselMeshConstPtr& message)
   const std::lock_guard<std::mutex> lock(mutex_);
   detector_ = std::move(detector);
   version_ = mesh.version;
+  received_ = std::max<std::uint64_t>(received_, mesh.version + vessel.response.moved.size());
   for (auto displacement = vessel.response.moved.rbegin(); displacement != vessel.response.moved.rend(); ++displacement)
     pending_.push_front(boost::make_shared<WallDisplacement>(*displacement));
+}
+
+/** Takes the present wall of vessel_server in place of the one that is searched. No rod state may be on its way. */
+bool ContactNode::takeWall(TakeWall::Request& request, TakeWall::Response& response)
+{
+  GetVessel vessel;
+  try
+  {
+    if (!waitForVersion(request.newest))
+      throw InputError(names::kWallDisplacement, "", "version " + std::to_string(request.newest) + " has not arrived");
+    if (!ros::service::call(node_.resolveName(names::kGetVessel), vessel))
+      throw InputError(names::kGetVessel, "", "does not respond");
+    adoptWall(vessel.response);
+    response.success = 1;
+  }
+  catch (const std::exception& error)
+  {
+    response.message = error.what();
+  }
+  return true;
+}
+
+/** Waits for the vessel, and for the displacement that leads to a version. @return false when they do not arrive */
+bool ContactNode::waitForVersion(std::uint64_t version)
+{
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kVesselPatience);
+  while (ros::WallTime::now() < end)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (detector_ && received_ >= version)
+        return true;
+    }
+    ros::WallDuration(1e-3).sleep();
+  }
+  return false;
+}
+
+/** @throws InputError for an invalid wall, or one with other triangles: the wall that is searched then stays */
+void ContactNode::adoptWall(const GetVessel::Response& vessel)
+{
+  const geometry::TriangleMesh mesh = fromMessage(vessel.mesh);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (mesh.triangles != detector_->wall().triangles || mesh.vertices.size() != detector_->wall().vertices.size())
+    throw InputError(names::kVesselMesh, "", "is another vessel than the one that is searched; restart the session");
+  const intervention::WallDisplacement moved =
+      intervention::displacementBetween(detector_->wall().vertices, mesh.vertices);
+  detector_->moveVertices(moved.indices, moved.positions, vessel.mesh.version);
+  version_ = vessel.mesh.version;
+  received_ = vessel.mesh.version + vessel.moved.size();
+  follows_rod_ = true;
+  deferred_.reset();
+  pending_.clear();
+  for (const WallDisplacement& displacement : vessel.moved)
+    pending_.push_back(boost::make_shared<WallDisplacement>(displacement));
 }
 
 void ContactNode::receiveDisplacement(const WallDisplacementConstPtr& message)
@@ -127,6 +184,7 @@ void ContactNode::receiveDisplacement(const WallDisplacementConstPtr& message)
   if (pending_.size() >= kDisplacementQueue)
     throw InputError(names::kWallDisplacement, "", "more wait than any simulation leaves; is another node publishing?");
   pending_.push_back(message);
+  received_ = std::max(received_, message->version);
   if (!deferred_)
     return;
   const RodStateConstPtr state = std::move(deferred_);

@@ -13,7 +13,9 @@
 #include <boost/shared_ptr.hpp>
 
 #include "contact/detector.h"
+#include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/RodState.h"
+#include "endovascular_sim/TakeWall.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "endovascular_sim/WallDisplacement.h"
 #include "nodes/conversions/contact_set_serializer.h"
@@ -30,7 +32,8 @@ namespace endovascular_sim::nodes
  *  machine connects to a local line. From then on its states arrive there, and those of the topic are ignored.
  *
  *  Lock-step with a moving wall: a rod state requests a version of the vessel. The node applies the displacements up to
- *  this version, never beyond it, and defers the response until they have arrived. */
+ *  this version, never beyond it, and defers the response until they have arrived. After a reset and a loaded state
+ *  rod_dynamics makes it take the wall of vessel_server anew. */
 class ContactNode
 {
 public:
@@ -44,6 +47,9 @@ private:
   void onTimer();
   void subscribe();
   void receiveVessel(const VesselMeshConstPtr& message);
+  bool takeWall(TakeWall::Request& request, TakeWall::Response& response);
+  bool waitForVersion(std::uint64_t version);
+  void adoptWall(const GetVessel::Response& vessel);
   void receiveDisplacement(const WallDisplacementConstPtr& message);
   void receiveState(const RodStateConstPtr& message);
   void receiveFrame(const std::uint8_t* frame, std::uint32_t size);
@@ -58,10 +64,12 @@ private:
   SchedulingGrant grant_;                     ///< used by the thread of vessels and diagnostics only
   contact::WallLaw law_;
   double largest_margin_ = 0.0;                   ///< of a query [m]
-  std::mutex mutex_;                              ///< guards the next three: vessels arrive in another thread
+  std::mutex mutex_;                              ///< guards the next four: vessels arrive in another thread
   std::unique_ptr<contact::Detector> detector_;   ///< null before the first vessel
   std::deque<WallDisplacementConstPtr> pending_;  ///< displacements that no rod state has requested yet
   RodStateConstPtr deferred_;                     ///< rod state that waits for its version of the wall
+  std::uint64_t received_ = 0;                    ///< newest version of the wall that has arrived
+  bool follows_rod_ = false;                      ///< true: rod_dynamics names the wall to search, not vessel/mesh
   int seconds_without_vessel_ = 0;                ///< with a connected vessel server [s]
   OneSource state_source_, displacement_source_;  ///< used by the thread of states and displacements only
   contact::Query query_;
@@ -83,6 +91,7 @@ private:
   // Last, so that they end before the members that their callbacks use.
   ros::Subscriber vessel_subscriber_, displacement_subscriber_, state_subscriber_;
   ros::WallTimer timer_;
+  ros::ServiceServer wall_service_;
 };
 
 }  // namespace endovascular_sim::nodes

@@ -1,6 +1,5 @@
 #include "nodes/rod_dynamics/graph_simulation.h"
 
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -172,15 +171,7 @@ void GraphSimulation::setState(drive::OperatingState state, const std::string& r
 
 void GraphSimulation::reset()
 {
-  try
-  {
-    session_->reset();
-  }
-  catch (const std::logic_error&)
-  {
-    throw InputError(scene_.file, "balloon",
-                     "has moved the wall, which vessel_server keeps; restart the session to begin again");
-  }
+  session_->reset();
   drives_.reset();
   beginRun();
 }
@@ -197,26 +188,16 @@ void GraphSimulation::beginRun()
     forces_->reset();
 }
 
-/** @throws InputError for a scene with a balloon */
-void GraphSimulation::requireRigidWall() const
-{
-  if (wall_)
-    throw InputError(scene_.file, "balloon",
-                     "the wall that it moves belongs to vessel_server, so nodes neither save nor load states of this "
-                     "scene; use simulate --save-state and --from-state");
-}
-
 std::string GraphSimulation::save()
 {
-  requireRigidWall();
   return session_->save([this](Archive& archive) { drives_.archive(archive); });
 }
 
 void GraphSimulation::load(const std::string& state, const std::string& origin)
 {
-  requireRigidWall();
   Archive before;
   drives_.archive(before);
+  const std::string wall = wall_ ? wall_->save() : "";
   const auto loadDrives = [this](Archive* archive, const simulation::Simulation& loaded)
   {
     if (archive == nullptr)  // a state of `simulate`
@@ -232,6 +213,8 @@ void GraphSimulation::load(const std::string& state, const std::string& origin)
   {
     Archive kept(before.bytes());
     drives_.archive(kept);
+    if (wall_)
+      wall_->load(wall);
     throw;
   }
   drives_.playFrom(simulation().time());

@@ -60,7 +60,7 @@ public:
   void setState(drive::OperatingState state, const std::string& reason);
 
   /** Returns to the beginning of the scene.
-   *  @throws InputError when a balloon has moved the wall, which belongs to vessel_server */
+   *  @throws InputError when a node that keeps the wall does not respond */
   void reset();
 
   /** State in the format of Simulation::save(), followed by that of the scripted operator and of the drives.
@@ -69,7 +69,7 @@ public:
 
   /** Continues from a state of save(), or of `simulate`. A refused one has no effect.
    *  @param origin names the state in errors
-   *  @throws InputError for an invalid state, or one of another scene */
+   *  @throws InputError for an invalid state, one of another scene, or a node that does not respond */
   void load(const std::string& state, const std::string& origin);
 
   const scene::Scene& scene() const { return scene_; }
@@ -82,6 +82,12 @@ public:
   const LoopTimes& times() const { return costs_.last(); }  ///< of the last step
   const InstrumentPublisher& instruments() const { return instruments_; }
   SimulationClock& clock() { return clock_; }
+
+  /** Reports whether a person does the steps of a procedure. */
+  bool isGuided() const { return scene_.procedure && scene_.procedure->guided; }
+
+  /** Observer of the procedure; null without one, and before connect(). */
+  const procedure::Operator* observer() const { return session_ ? session_->scriptedOperator() : nullptr; }
 
   /** Reports whether forces are faded after rejected steps. */
   bool isFaded() const { return renderer_.isFaded(); }
@@ -97,7 +103,6 @@ private:
   const std::vector<drive::HandCommand>& nextCommands();
   void publishStep(const std::vector<drive::HandCommand>& commands, bool counted);
   ros::Time now() const { return clock_.stamp(session_ ? simulation().steps() : 0); }
-  void requireRigidWall() const;
   void beginRun();
 
   ros::NodeHandle& node_;

@@ -9,6 +9,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
+#include "common/error.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "nodes/rod_dynamics/instruments/unread_topics.h"
 #include "nodes/runtime/diagnostics_publication.h"
@@ -180,6 +181,21 @@ void RodDynamicsNode::runSteps()
   }
 }
 
+/** Keeps the state where a step of a guided procedure has begun, so that it can be repeated. */
+void RodDynamicsNode::keepStepState()
+{
+  if (!simulation_.isGuided() || simulation_.observer() == nullptr)
+    return;
+  try
+  {
+    step_states_.follow(*simulation_.observer(), [this] { return simulation_.save(); });
+  }
+  catch (const InputError& error)
+  {
+    ROS_WARN("this step of the procedure cannot be repeated: %s", error.what());
+  }
+}
+
 /** @param awake time at which the loop has ended its work on the last step */
 void RodDynamicsNode::step(StepScheduler& scheduler, Clock::time_point awake)
 {
@@ -187,6 +203,7 @@ void RodDynamicsNode::step(StepScheduler& scheduler, Clock::time_point awake)
   const double woken_late = awake < scheduler.next() ? seconds(begin - scheduler.next()) : 0.0;
   scheduler.begin(begin);
   simulation_.step();
+  keepStepState();
   const Clock::time_point end = Clock::now();
   // Only real time has deadlines.
   const Clock::time_point deadline = pace_ == Pace::kRealTime ? scheduler.slotEnd() : end;

@@ -19,6 +19,7 @@
 #include "nodes/rod_dynamics/step_obstacles.h"
 #include "nodes/rod_dynamics/step_statistics.h"
 #include "nodes/runtime/real_time.h"
+#include "session/step_states.h"
 
 namespace endovascular_sim::nodes
 {
@@ -56,11 +57,13 @@ private:
   bool isAtEnd() const { return simulation_.simulation().steps() >= last_step_; }
 
   void hold(const std::string& reason);
+  void keepStepState();
 
   // Services.
   std::string pauseByClient();
   std::string resumeByClient();
   std::string reset();
+  std::string goToStep(std::uint32_t number);
   std::string continueFrom(const std::string& state, const std::string& origin);
   void stepByClient(const StepSimulation::Request& request, StepSimulation::Response& response);
   std::string refusalOf(const StepSimulation::Request& request) const;
@@ -85,6 +88,7 @@ private:
   StepHold hold_;
   StepObstacles obstacles_;
   std::unique_ptr<StepObserver> observer_;
+  session::StepStates step_states_;  ///< of a guided procedure
   std::unique_ptr<SimulationServices> services_;  ///< last, so that it ends before the members that it uses
 };
 

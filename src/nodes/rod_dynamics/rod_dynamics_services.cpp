@@ -26,6 +26,7 @@ SimulationServices::Operations RodDynamicsNode::operations()
           [this] { return reset(); },
           [this] { return simulation_.save(); },
           [this](const std::string& state, const std::string& origin) { return continueFrom(state, origin); },
+          [this](std::uint32_t step) { return goToStep(step); },
           [this](const StepSimulation::Request& request, StepSimulation::Response& response)
           { stepByClient(request, response); }};
 }
@@ -54,6 +55,20 @@ std::string RodDynamicsNode::continueFrom(const std::string& state, const std::s
   const std::uint64_t previous_steps = simulation_.simulation().steps();
   simulation_.load(state, origin);
   return beginRun(state, previous_steps);
+}
+
+/** @param number of the step, from 1; 0: the present one */
+std::string RodDynamicsNode::goToStep(std::uint32_t number)
+{
+  const std::size_t step = number == 0 ? step_states_.present() : number - 1U;
+  const std::string* state = step_states_.at(step);
+  if (!simulation_.isGuided())
+    throw InputError(names::kGoToStep, "", "a person repeats steps of a guided procedure only; this scene has none");
+  if (state == nullptr)
+    throw InputError(names::kGoToStep, "step",
+                     "step " + std::to_string(step + 1) + " was not begun yet; start the lesson with step:=" +
+                         std::to_string(step + 1));
+  return continueFrom(std::string(*state), "step " + std::to_string(step + 1) + " of the procedure");
 }
 
 /** @param state saved state at the beginning; empty: the beginning of the scene */

@@ -21,6 +21,8 @@ constexpr auto kXRaySourceViewFrame = "x_ray_source_view_optical";
 constexpr auto kVesselMesh = "vessel/mesh";
 constexpr auto kVesselCentreline = "vessel/centreline";
 constexpr auto kGetVessel = "vessel/get";
+constexpr auto kWallState = "vessel/wall_state";
+constexpr auto kTakeWall = "contact/take_wall";
 constexpr auto kBalloonLoad = "vessel/balloon_load";
 constexpr auto kWallDisplacement = "vessel/wall_displacement";
 constexpr auto kVesselMarker = "vessel/marker";
@@ -41,6 +43,7 @@ constexpr auto kForceLegendMarker = "contact/legend_marker";
 
 constexpr auto kDriveApplied = "drive/applied";
 constexpr auto kProcedureStep = "procedure/step";
+constexpr auto kGoToStep = "procedure/go_to_step";
 constexpr auto kSessionInfo = "session/info";
 constexpr auto kSessionSample = "session/sample";
 constexpr auto kSessionSteps = "session/steps";

@@ -90,9 +90,7 @@ void MetricsRecorder::add(const WallDisplacement& moved)
 {
   if (wall_.vertices.empty() || moved.step >= steps_)
     return;
-  const intervention::WallDisplacement vertices = fromMessage(moved, wall_.vertices.size());
-  for (std::size_t k = 0; k < vertices.indices.size(); ++k)
-    wall_.vertices[vertices.indices[k]] = vertices.positions[k];
+  intervention::move(fromMessage(moved, wall_.vertices.size()), wall_.vertices);
   followRisk(moved);
 }
 
@@ -125,8 +123,11 @@ void MetricsRecorder::add(const TreatmentVisual& treatment)
   {
     if (treatment.event_instrument[k] >= scene_.instruments.size())
       throw InputError(names::kTreatmentVisual, "event_instrument", "must be an index of the scene's instruments");
-    if (treatment.event[k] != simulation::nameOf(simulation::TreatmentEvent::kAtRisk))
-      events_.push_back({treatment.event[k], static_cast<int>(treatment.event_instrument[k]), treatment.event_time[k]});
+    const Event event = {treatment.event[k], static_cast<int>(treatment.event_instrument[k]), treatment.event_time[k]};
+    if (event.kind != simulation::nameOf(simulation::TreatmentEvent::kAtRisk))
+      events_.push_back(event);
+    else if (!risks_.empty() && event.time < risks_.front().time)
+      risks_.front() = event;  // before the state from which the run continues
   }
   stents_.clear();
   for (const TreatmentBody& stent : treatment.stents)
@@ -150,7 +151,7 @@ std::vector<results::SessionError> MetricsRecorder::errors() const
 
 std::string MetricsRecorder::verdict() const
 {
-  return metrics_ ? results::verdict(results::lessonMarks(*metrics_)) : std::string();
+  return metrics_ ? results::verdict(results::lessonMarks(*metrics_), results::stepsBefore(*metrics_)) : std::string();
 }
 
 void MetricsRecorder::write(const std::string& folder, const results::WallForceSummary* forces)

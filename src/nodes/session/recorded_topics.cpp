@@ -10,17 +10,20 @@
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
+#include <boost/make_shared.hpp>
 
 #include "common/error.h"
 #include "common/text/format.h"
 #include "common/version.h"
 #include "endovascular_sim/CArm.h"
+#include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/SensorReading.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/WallDisplacement.h"
 #include "fluoroscopy/image/png_writer.h"
+#include "intervention/wall_displacement.h"
 #include "nodes/conversions/message_checks.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
@@ -285,6 +288,7 @@ void RecordedTopics::onVessel(const ros::MessageEvent<VesselMesh const>& event)
     return;                               // later meshes are in vessel/wall_displacement already
   fromMessage(*event.getConstMessage());  // throws for an invalid one
   info_.mesh_hash = event.getConstMessage()->content_hash;
+  initial_wall_ = event.getConstMessage();
   publishInfo();
   const std::string topic = node_.resolveName(names::kVesselMesh);
   auto& begin = latched_[{Rank::kMesh, topic}] = [topic, event](Recording& recording)
@@ -294,6 +298,28 @@ void RecordedTopics::onVessel(const ros::MessageEvent<VesselMesh const>& event)
   };
   if (recording_ != nullptr)
     begin(*recording_);
+}
+
+void RecordedTopics::recordWall(std::uint64_t first_step)
+{
+  GetVessel vessel;
+  if (recording_ == nullptr || !initial_wall_ || !ros::service::call(node_.resolveName(names::kGetVessel), vessel))
+    return;
+  geometry::TriangleMesh wall = fromMessage(vessel.response.mesh);
+  for (const WallDisplacement& moved : vessel.response.moved)
+    intervention::move(fromMessage(moved, wall.vertices.size()), wall.vertices);
+  WallDisplacement before;
+  toMessage(intervention::displacementBetween(fromMessage(*initial_wall_).vertices, wall.vertices), before);
+  if (before.index.empty())
+    return;
+  before.header.stamp = ros::Time::now();
+  before.header.frame_id = names::kPatientFrame;
+  before.step = first_step;
+  before.version = vessel.response.mesh.version + vessel.response.moved.size();
+  before.at_risk = vessel.response.at_risk;
+  recording_->results.metrics().add(before);
+  recording_->bag.write(node_.resolveName(names::kWallDisplacement), ros::Time::now(),
+                        boost::make_shared<WallDisplacement>(before));
 }
 
 void RecordedTopics::onCentreline(const ros::MessageEvent<VesselCentreline const>& event)

@@ -39,6 +39,10 @@ public:
    *  vessel, and the newest messages of latched topics. */
   void recordInto(Recording* recording);
 
+  /** Records the wall that balloons had moved before the run, as one displacement from the initial wall.
+   *  @param first_step of the run */
+  void recordWall(std::uint64_t first_step);
+
   /** Ends all subscriptions. */
   void unsubscribe() { subscribers_.clear(); }
 
@@ -95,6 +99,7 @@ private:
   Recording* recording_ = nullptr;  ///< null: none
   SessionInfo info_;
   bool info_published_ = false;
+  VesselMeshConstPtr initial_wall_;  ///< null before the vessel
   /** Messages that begin every recording, by their topic and publisher. */
   std::map<std::pair<Rank, std::string>, std::function<void(Recording&)>> latched_;
   ros::SteadyTime last_step_;

@@ -11,6 +11,7 @@
 #include "nodes/runtime/diagnostics_publication.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
+#include "simulation/local_deformable_wall.h"
 
 namespace endovascular_sim::nodes
 {
@@ -225,6 +226,8 @@ void SessionRecorder::beginRun()
   run_ = run.run;
   recording_->results.report().setFirstStep(run.first_step);
   recording_->bag.writeLatched(node_.resolveName(names::kSimulationRun), run);
+  if (!run.state.empty() && simulation::hasBalloon(scene_))
+    topics_->recordWall(run.first_step);
   next_.reset();
 }
 

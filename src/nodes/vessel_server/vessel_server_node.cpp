@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/error.h"
 #include "common/hash.h"
 #include "common/progress.h"
 #include "nodes/conversions/contact_conversions.h"
@@ -20,6 +21,7 @@ namespace
 
 constexpr int kQueue = 100;               ///< queue length of loads and displacements: none may be lost
 constexpr int kPriority = 50;             ///< below the contact node's, which requests the wall
+constexpr double kPatience = 5.0;         ///< longest wait for the loads that are on their way [s]
 constexpr double kRepublishPeriod = 0.5;  ///< between two meshes of a wall that moves [s]
 
 visualization_msgs::Marker wallMarker(const geometry::TriangleMesh& mesh)
@@ -142,7 +144,8 @@ void VesselServerNode::serveWall(const vessel::Vessel& vessel)
       },
       &queue_);
   republish_timer_ =
-      node_.createWallTimer(ros::WallDuration(kRepublishPeriod), [this](const ros::WallTimerEvent&) { republish(); });
+      node_.createWallTimer(ros::WallDuration(kRepublishPeriod), [this](const ros::WallTimerEvent&) { republish(false); });
+  state_service_ = node_.advertiseService(names::kWallState, &VesselServerNode::replaceWall, this);
 }
 
 /** Real-time scheduling for the thread that reads the sockets: the contact node waits for its displacements. */
@@ -171,11 +174,60 @@ void VesselServerNode::receiveLoad(const BalloonLoadConstPtr& message)
   displacement_publisher_.publish(displacement_);
 }
 
-/** Publishes the current wall for display and late subscribers, if it has moved. */
-void VesselServerNode::republish()
+/** Saves, loads or resets the wall, once it has the version that the caller names. */
+bool VesselServerNode::replaceWall(WallState::Request& request, WallState::Response& response)
 {
-  const bool moved = wall_->version() != mesh_.version;
-  const bool marker_is_due = marker_version_ != wall_->version() && marker_publisher_.getNumSubscribers() > 0;
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+  while (wall_->version() < request.newest && ros::WallTime::now() < end)
+    ros::WallDuration(1e-3).sleep();
+  try
+  {
+    if (wall_->version() != request.newest)
+      throw InputError(names::kWallState, "newest",
+                       "is " + std::to_string(request.newest) + ", but this wall has version " +
+                           std::to_string(wall_->version()) + ": one of the nodes was restarted; restart the session");
+    applyTo(request, response);
+    response.success = 1;
+  }
+  catch (const std::exception& error)
+  {
+    response.message = error.what();
+  }
+  response.version = wall_->version();
+  response.at_risk = wall_->atRisk() ? 1 : 0;
+  return true;
+}
+
+/** @throws std::exception for a refused request, which changes nothing */
+void VesselServerNode::applyTo(WallState::Request& request, WallState::Response& response)
+{
+  switch (request.operation)
+  {
+    case WallState::Request::SAVE:
+    {
+      const std::string state = wall_->save(request.detected);
+      response.state.assign(state.begin(), state.end());
+      return;
+    }
+    case WallState::Request::LOAD:
+      wall_->load(std::string(request.state.begin(), request.state.end()));
+      break;
+    case WallState::Request::RESET:
+      wall_->reset();
+      break;
+    default:
+      throw InputError(names::kWallState, "operation", "must be SAVE, LOAD or RESET");
+  }
+  republish(true);
+}
+
+/** Publishes the current wall for display and late subscribers.
+ *  @param always false: only if it has moved */
+void VesselServerNode::republish(bool always)
+{
+  const bool moved = always || wall_->version() != mesh_.version;
+  const bool marker_is_due =
+      (always || marker_version_ != wall_->version()) && marker_publisher_.getNumSubscribers() > 0;
   if (!moved && !marker_is_due)
     return;
   WallDeformationServer::Snapshot now = wall_->snapshot();
@@ -209,6 +261,7 @@ bool VesselServerNode::get(GetVessel::Request&, GetVessel::Response& response)
     toMessage(now.mesh, response.mesh);
     response.mesh.version = now.version;
     response.moved = now.displacements;
+    response.at_risk = wall_->atRisk() ? 1 : 0;
   }
   response.centreline = centreline_;
   return true;

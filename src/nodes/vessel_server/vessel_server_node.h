@@ -17,6 +17,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "endovascular_sim/WallDisplacement.h"
+#include "endovascular_sim/WallState.h"
 #include "nodes/runtime/direct_callback_queue.h"
 #include "nodes/runtime/one_source.h"
 #include "nodes/vessel_server/wall_deformation_server.h"
@@ -43,7 +44,9 @@ private:
   void serveWall(const vessel::Vessel& vessel);
   void receiveLoad(const BalloonLoadConstPtr& message);
   void requestRealTime();
-  void republish();
+  void republish(bool always);
+  bool replaceWall(WallState::Request& request, WallState::Response& response);
+  void applyTo(WallState::Request& request, WallState::Response& response);
   bool get(GetVessel::Request&, GetVessel::Response& response);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -67,7 +70,7 @@ private:
   // Last, so that they end before the members that their callbacks use.
   ros::Subscriber load_subscriber_, click_subscriber_;
   ros::WallTimer republish_timer_, diagnostics_timer_;
-  ros::ServiceServer service_;
+  ros::ServiceServer service_, state_service_;
 };
 
 }  // namespace endovascular_sim::nodes

@@ -6,7 +6,9 @@ namespace endovascular_sim::rviz_plugin
 std::string ErrorWatch::follow(const ProcedureStep& step, const std::string& branch)
 {
   const bool is_same = step.begun == begun_;
-  const bool is_wrong = step.wrong_branches > (is_same ? wrong_branches_ : 0U);
+  // Steps that ended before a state was loaded are published again, with the wrong branches of then.
+  const bool is_past = !is_same && step.outcome == ProcedureStep::DONE;
+  const bool is_wrong = !is_past && step.wrong_branches > (is_same ? wrong_branches_ : 0U);
   const bool is_changed = !is_same || step.outcome != outcome_;
   begun_ = step.begun;
   wrong_branches_ = step.wrong_branches;

@@ -105,7 +105,10 @@ SceneSummary sceneSummary(const SessionInfo& info)
     instrument.conflicts = conflictsOf(scene, k);
   }
   if (scene.procedure)
+  {
     summary.steps = stepsOf(*scene.procedure);
+    summary.is_guided = scene.procedure->guided;
+  }
   return summary;
 }
 

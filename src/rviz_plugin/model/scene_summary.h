@@ -41,6 +41,7 @@ struct SceneSummary
   double duration = 0.0;                       ///< [s]
   std::vector<InstrumentSummary> instruments;  ///< from the inside out
   std::vector<StepSummary> steps;              ///< of the procedure
+  bool is_guided = false;                      ///< true: a person does these steps
 
   std::vector<visualization::InstrumentShape> shapes() const;
 };

@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "endovascular_sim/CArm.h"
+#include "endovascular_sim/GoToStep.h"
 #include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
@@ -38,10 +39,23 @@ const char* serviceOf(Request request)
       return names::kSimulationReset;
     case Request::kStopRecording:
       return names::kSessionStop;
+    case Request::kRepeatStep:
+      return names::kGoToStep;
     case Request::kStart:
       break;
   }
   return names::kSimulationResume;
+}
+
+/** Calls a service with a response of success and message. */
+template <typename Service>
+CallOutcome outcomeOf(const std::string& name, Service service)
+{
+  if (!ros::service::exists(name, false))
+    return {false, name + " is not available"};
+  if (!ros::service::call(name, service))
+    return {false, name + " does not respond"};
+  return {static_cast<bool>(service.response.success), service.response.message};
 }
 
 double secondsSince(std::chrono::steady_clock::time_point time)
@@ -353,17 +367,15 @@ void SessionClient::request(Request request)
   const std::string service = node_.resolveName(serviceOf(request));
   const auto call = [recording = recording_, service, request]() -> CallOutcome
   {
-    std_srvs::Trigger trigger;
-    if (!ros::service::exists(service, false))
-      return {false, service + " is not available"};
-    if (!ros::service::call(service, trigger))
-      return {false, service + " does not respond"};
-    if (trigger.response.success && request == Request::kStopRecording)
+    if (request == Request::kRepeatStep)
+      return outcomeOf(service, GoToStep());
+    const CallOutcome outcome = outcomeOf(service, std_srvs::Trigger());
+    if (outcome.is_success && request == Request::kStopRecording)
     {
       const std::lock_guard<std::mutex> lock(recording->mutex);
       recording->stopped_run = recording->run;
     }
-    return {static_cast<bool>(trigger.response.success), trigger.response.message};
+    return outcome;
   };
   calls_.begin(request, serviceOf(request), call);
 }

@@ -14,6 +14,7 @@ enum class Request
   kStart,          ///< ends a pause
   kPause,          ///< takes no further step
   kReset,          ///< returns to the beginning of the scene; a further recording begins
+  kRepeatStep,     ///< returns to the beginning of the present step of a guided procedure; a further recording begins
   kStopRecording,  ///< closes the recording and writes its report
 };
 

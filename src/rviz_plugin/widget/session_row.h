@@ -22,7 +22,7 @@ public:
 
 private:
   bool is_recording_ = false;
-  QPushButton* record_;
+  QPushButton *record_, *repeat_;
   QLabel *status_, *recording_;
 };
 

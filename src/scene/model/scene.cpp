@@ -8,6 +8,18 @@
 
 namespace endovascular_sim::scene
 {
+namespace
+{
+
+/** True for a line of resolved YAML that tells who drives an instrument: the scripted operator or a person. */
+bool namesDriver(const std::string& line)
+{
+  const std::size_t begin = line.find_first_not_of(' ');
+  const std::string entry = begin == std::string::npos || begin == 0 ? "" : line.substr(begin);
+  return entry == "guided: true" || entry == "source: procedure" || entry == "source: topic";
+}
+
+}  // namespace
 
 double DriveProfile::at(double t) const
 {
@@ -91,7 +103,7 @@ std::uint64_t Scene::motionHash() const
   {
     if (!line.empty() && line.front() != ' ')
       omitted = line.rfind("fluoroscopy:", 0) == 0;
-    if (!omitted)
+    if (!omitted && !namesDriver(line))
       kept += line + '\n';
   }
   Hash64 hash;

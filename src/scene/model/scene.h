@@ -328,7 +328,8 @@ struct Scene
   /** Hash of resolved_yaml. */
   std::uint64_t hash() const;
 
-  /** Hash of resolved_yaml without `fluoroscopy`, which has no influence on the motion. */
+  /** Hash of resolved_yaml without what does not belong to a state of the simulation: `fluoroscopy`, and who drives the
+   *  instruments, the scripted operator (`procedure`) or a person (`guided`, `topic`). */
   std::uint64_t motionHash() const;
 };
 

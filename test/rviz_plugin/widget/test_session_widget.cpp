@@ -83,6 +83,17 @@ protected:
   std::unique_ptr<SessionWidget> widget;
 };
 
+TEST_F(SessionWidgetTest, RepeatsAStepOfAGuidedProcedureOnly)
+{
+  auto* repeat = child<QPushButton>("repeat_step");
+  EXPECT_FALSE(repeat->isVisible());
+  session.present.scene.is_guided = true;
+  widget->refresh();
+  EXPECT_TRUE(repeat->isVisible());
+  QTest::mouseClick(repeat, Qt::LeftButton);
+  EXPECT_EQ(session.requests, std::vector<Request>{Request::kRepeatStep});
+}
+
 TEST_F(SessionWidgetTest, HoldsAVelocityWhileAButtonIsPressed)
 {
   QTest::mousePress(child<QPushButton>("push"), Qt::LeftButton);

@@ -23,9 +23,9 @@ def expert_overrides(scene):
     return ["procedure.guided=false"] + [prefix + "drive.source=procedure" for prefix in prefixes]
 
 
-def key_of(scene, simulate):
-    """Hash of the scene with its files, and of the program."""
-    digest = hashlib.sha256()
+def key_of(scene, overrides, simulate):
+    """Hash of the scene with its files, its overrides, and of the program."""
+    digest = hashlib.sha256("\n".join(overrides).encode())
     folder = scene.parent.parent
     for path in [scene, *sorted(folder.glob("procedures/*.yaml")), *sorted(folder.glob("anatomies/*.yaml")),
                  *sorted(folder.glob("instruments/*.yaml"))]:
@@ -37,11 +37,12 @@ def key_of(scene, simulate):
     return digest.hexdigest()[:16]
 
 
-def record(scene, folder):
-    """Runs the expert into a folder, which appears complete or not at all."""
+def record(scene, overrides, folder):
+    """Runs the expert into a folder, which appears complete or not at all. It holds the state at each step's beginning."""
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent) as made:
-        command.simulate(scene, made + "/run", expert_overrides(scene), "--seconds", "600")
+        command.simulate(scene, made + "/run", expert_overrides(scene) + overrides, "--seconds", "600", "--save-steps",
+                         made + "/run/steps")
         try:
             os.rename(made + "/run", folder)
         except OSError:
@@ -54,14 +55,26 @@ def add_arguments(parser):
     parser.add_argument("--cache", type=pathlib.Path, help="folder of the recordings",
                         default=pathlib.Path(os.environ.get("ROS_HOME", os.path.expanduser("~/.ros")), "endovascular_sim", "experts"))
     parser.add_argument("--again", action="store_true", help="replace a recording that exists")
+    parser.add_argument("--step", type=int, help="print the saved state at the beginning of this step instead, from 1")
+    command.add_overrides(parser)
+
+
+def state_of(folder, step):
+    """Path of the state at the beginning of a step. Raises Failure for a step that the expert does not have."""
+    states = sorted(folder.glob("steps/step_*.state"))
+    state = folder / "steps" / ("step_%02d.state" % step)
+    if state not in states:
+        raise command.Failure("--step %d: the expert has the steps 1 to %d" % (step, len(states)))
+    return state
 
 
 def run(options):
     """Finds or makes the recording."""
     scene = options.scene.resolve()
-    folder = options.cache / ("%s-%s" % (scene.stem, key_of(scene, command.programs_folder() / "simulate")))
+    key = key_of(scene, options.overrides, command.programs_folder() / "simulate")
+    folder = options.cache / ("%s-%s" % (scene.stem, key))
     if options.again and folder.exists():
         shutil.rmtree(folder)
     if not (folder / "metrics.json").exists():
-        record(scene, folder)
-    print(folder)
+        record(scene, options.overrides, folder)
+    print(folder if options.step is None else state_of(folder, options.step))

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "endovascular_sim/GoToStep.h"
 #include "nodes/rod_dynamics/control/state_file.h"
 #include "nodes/runtime/real_time.h"
 #include "nodes/runtime/ros_names.h"
@@ -59,6 +60,10 @@ SimulationServices::SimulationServices(const ros::NodeHandle& node, Operations o
     return true;
   };
   servers_.push_back(node_.advertiseService(names::kSimulationStep, step));
+  const boost::function<bool(GoToStep::Request&, GoToStep::Response&)> go_to_step =
+      [this](GoToStep::Request& request, GoToStep::Response& response)
+  { return answer(names::kGoToStep, response, [&] { return operations_.go_to_step(request.step); }); };
+  servers_.push_back(node_.advertiseService(names::kGoToStep, go_to_step));
   file_spinner_.start();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <future>
@@ -17,7 +18,7 @@
 namespace endovascular_sim::nodes
 {
 
-/** Services below simulation/, executed in the thread of the simulation, between two steps. Files are read and written
+/** Services below simulation/ and procedure/, executed in the thread of the simulation, between two steps. Files are read and written
  *  in a thread of their own: steps do not wait for a disk. */
 class SimulationServices
 {
@@ -29,6 +30,8 @@ public:
     std::function<std::string()> state;  ///< present state of the simulation
     /** Continues from a state. @param origin its file, for messages */
     std::function<std::string(const std::string& state, const std::string& origin)> continue_from;
+    /** Returns to the beginning of a step of the procedure. @param step from 1; 0: the present one */
+    std::function<std::string(std::uint32_t step)> go_to_step;
     /** Fills the response, also for a refusal. */
     std::function<void(const StepSimulation::Request&, StepSimulation::Response&)> step;
   };
