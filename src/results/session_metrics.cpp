@@ -242,15 +242,26 @@ void SessionMetrics::followPerforation(const Sample& sample, int foremost)
   perforation_until_ = sample.observation.time;
 }
 
-/** Detects a tip that pushes on against the wall: the largest force of every interval between two samples exceeds the
- *  limit for longer than its time. The blunt tips of catheters may bear the force that risks a perforation by a wire.
- */
+/** True where the hands push the instruments as a whole: a curve that presses on the wall by its shape, at rest or while
+ *  it is withdrawn, pushes them out. */
+bool isPushed(const procedure::Observation& observation)
+{
+  double force = 0.0;
+  for (const procedure::InstrumentView& view : observation.instruments)
+    force += view.hand.force;
+  return force > 0.0;
+}
+
+/** Detects a tip that is pushed on against the wall: the largest force of every interval between two samples exceeds
+ *  the limit for longer than its time. The blunt tips of catheters may bear the force that risks a perforation by a
+ *  wire. */
 void SessionMetrics::followTipForce(const Sample& sample, int foremost)
 {
   const double at_tip = sample.peaks.wall.at_tip;
   const bool is_wire =
       scene_.instruments[static_cast<std::size_t>(foremost)].instrument.kind == instrument::Kind::kGuidewire;
-  const bool pushes = at_tip > (is_wire ? limits_.tip_force : limits_.perforation_force);
+  const bool pushes =
+      at_tip > (is_wire ? limits_.tip_force : limits_.perforation_force) && isPushed(sample.observation);
   if (!pushes || foremost != pushing_)
   {
     pushing_ = pushes ? foremost : -1;

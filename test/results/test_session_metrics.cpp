@@ -50,6 +50,7 @@ public:
         insertions_[k] = inserted[k] + share * (insertions[k] - inserted[k]);
         view.tip = tips_[k];
         view.hand.insertion = insertions_[k];
+        view.hand.force = k == 0 ? hand_force : 0.0;
         if (insertions_[k] > 0.0)
           view.branch_position = metrics.locator().at(view.tip);
         sample.observation.instruments.push_back(view);
@@ -66,6 +67,7 @@ public:
   SessionMetrics metrics;
   std::uint64_t stale_steps = 0;  ///< before the next sample [1]
   double peak_hand_force = 0.0;   ///< of the wire, in all steps between two samples [N]
+  double hand_force = 0.1;  ///< of the wire; a push is positive [N]
 
 private:
   double time_ = 0.0;
@@ -244,6 +246,17 @@ TEST(SessionMetrics, ReportATipThatPushesOnAgainstTheWall)
   EXPECT_EQ(errors[0].instrument, 0);
   EXPECT_NEAR(errors[0].time, begin, 1.5 / SessionMetrics::kRate);
   EXPECT_EQ(errors[0].value, 0.4);
+}
+
+TEST(SessionMetrics, DoNotReportATipThatPressesByItsShapeWithoutAPush)
+{
+  Session session;
+  session.hand_force = -0.4;
+  session.move(3.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  EXPECT_TRUE(session.metrics.errors().empty());
+  session.hand_force = 0.1;
+  session.move(2.0, {{0, 0, 0.1}, kStart}, {0.1, -0.1}, 0.3);
+  EXPECT_EQ(session.metrics.errors().size(), 1U);
 }
 
 TEST(SessionMetrics, DoNotJoinThePushesBeforeAndAfterAFaultOfTheSimulator)
