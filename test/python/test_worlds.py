@@ -9,6 +9,7 @@ import warnings
 
 import numpy as np
 import support
+import yaml
 from support import evs, tube
 
 
@@ -41,10 +42,17 @@ class Worlds(unittest.TestCase):
                                        (3, {}, "needs a scene"), ("tube", {"duration": print}, "builtin")):
             with self.assertRaisesRegex(evs.InputError, text):
                 evs.World(scene, **overrides)
-        for path in sorted((support.REPOSITORY / "test/data/scenes").glob("bad_*.yaml"))[:40]:
-            with warnings.catch_warnings(), self.assertRaises(evs.InputError):
-                warnings.simplefilter("ignore")
-                evs.World(path)
+        data = yaml.safe_load((support.REPOSITORY / "test/data/refused_scenes.yaml").read_text())
+        for refusal in data["refusals"].values():
+            text = refusal.get("text", data["scene"] + refusal.get("add", ""))
+            if "replace" in refusal:
+                text = text.replace(refusal["replace"], refusal["by"])
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "scene.yaml")
+                path.write_text(text)
+                with warnings.catch_warnings(), self.assertRaises(evs.InputError):
+                    warnings.simplefilter("ignore")
+                    evs.World(path)
 
     def test_pass_the_warnings_of_a_scene_to_python(self):
         with self.assertWarnsRegex(UserWarning, "drive.speed"):
