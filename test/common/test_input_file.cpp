@@ -3,37 +3,30 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "common/output_file.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim
 {
 namespace
 {
 
-/** Folder for one test, removed at its end. */
 class FilesInAFolder : public testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    folder_ = std::filesystem::temp_directory_path() / ("test_files_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "file") << "text";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  const test::TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+  const std::string file_ = temporary_.write("file", "text");
 };
 
 TEST_F(FilesInAFolder, AreOpenedForReading)
 {
   std::string text;
-  openInputFile((folder_ / "file").string(), "give a file") >> text;
+  openInputFile(file_, "give a file") >> text;
   EXPECT_EQ(text, "text");
 }
 
@@ -51,10 +44,9 @@ TEST_F(FilesInAFolder, PreventAFolderOfTheSameName)
   createFolder((folder_ / "new" / "folder").string());
   createFolder((folder_ / "new" / "folder").string());
   EXPECT_TRUE(std::filesystem::is_directory(folder_ / "new" / "folder"));
-  const std::string file = (folder_ / "file").string();
-  EXPECT_EQ(inputErrorOf([&] { createFolder(file); }),
-            file + ": the folder cannot be created (Not a directory); choose an existing folder");
-  EXPECT_NE(inputErrorOf([&] { createFolder(file + "/below"); }), "");
+  EXPECT_EQ(inputErrorOf([&] { createFolder(file_); }),
+            file_ + ": the folder cannot be created (Not a directory); choose an existing folder");
+  EXPECT_NE(inputErrorOf([&] { createFolder(file_ + "/below"); }), "");
 }
 
 }  // namespace

@@ -2,13 +2,11 @@
 
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include <gtest/gtest.h>
 
 #include "common/error.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::drive
 {
@@ -18,13 +16,9 @@ namespace
 class CommandFile : public testing::Test
 {
 protected:
-  void SetUp() override { path_ = std::filesystem::temp_directory_path() / ("commands_" + std::to_string(getpid())); }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   std::vector<TimedCommand> read(const std::string& text) const
   {
-    std::ofstream(path_) << text;
-    return readCommandFile(path_);
+    return readCommandFile(folder_.write("commands", text));
   }
 
   /** Message of the error for a text. */
@@ -33,7 +27,8 @@ protected:
     return inputErrorOf([&] { read(text); });
   }
 
-  std::string path_;
+  test::TemporaryFolder folder_;
+  const std::string path_ = folder_.file("commands");
 };
 
 TEST_F(CommandFile, HoldsOneCommandPerRow)

@@ -3,13 +3,13 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
 
 #include "common/error.h"
 #include "image/volume_file.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::image
 {
@@ -33,24 +33,16 @@ Volume smallVolume()
 class VolumeFile : public testing::Test
 {
 protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /** Message of the rejection of a file with a content; empty without one. */
   std::string rejectionOf(const std::string& content) const
   {
-    std::ofstream(file_, std::ios::binary) << content;
-    return inputErrorOf([&] { readVolume(file_); });
+    return inputErrorOf([&] { readVolume(folder_.write("head.vol", content)); });
   }
 
-  std::string content() const
-  {
-    std::ifstream in(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  std::string content() const { return test::contentOf(file_); }
 
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("volume_file_" + std::to_string(getpid()));
-  std::string file_ = folder_ / "head.vol";
+  test::TemporaryFolder folder_;
+  std::string file_ = folder_.file("head.vol");
 };
 
 TEST_F(VolumeFile, HoldsTheVolumeBitForBit)
@@ -66,7 +58,7 @@ TEST_F(VolumeFile, HoldsTheVolumeBitForBit)
   EXPECT_EQ(read.scale, volume.scale);
   EXPECT_EQ(read.stored, volume.stored);
   EXPECT_EQ(read.at(3, 2, 1), 0.25 * 1300);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << "no temporary file is left";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1) << "no temporary file is left";
 }
 
 TEST_F(VolumeFile, EveryDamagedByteAndEveryLengthIsRejected)
@@ -100,7 +92,7 @@ TEST_F(VolumeFile, AForeignFileIsRejectedWithTheRemedy)
   EXPECT_NE(rejectionOf("solid vessel").find("volume_import"), std::string::npos);
   std::filesystem::remove(file_);
   EXPECT_THROW(readVolume(file_), InputError);
-  EXPECT_THROW(writeVolume(folder_ / "none" / "head.vol", smallVolume()), InputError);
+  EXPECT_THROW(writeVolume(folder_.file("none/head.vol"), smallVolume()), InputError);
 }
 
 }  // namespace

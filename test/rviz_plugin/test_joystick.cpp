@@ -5,9 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <filesystem>
-
 #include <gtest/gtest.h>
+
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -18,17 +18,12 @@ namespace
 class JoystickTest : public ::testing::Test
 {
 protected:
-  JoystickTest() : path(std::filesystem::temp_directory_path() / ("joystick_" + std::to_string(getpid())))
+  JoystickTest()
   {
-    std::filesystem::remove(path);
     EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
     device = open(path.c_str(), O_RDWR | O_NONBLOCK);
   }
-  ~JoystickTest() override
-  {
-    unplug();
-    std::filesystem::remove(path);
-  }
+  ~JoystickTest() override { unplug(); }
 
   void send(int type, int number, int value) const
   {
@@ -46,7 +41,8 @@ protected:
     device = -1;
   }
 
-  std::filesystem::path path;
+  test::TemporaryFolder folder;
+  const std::string path = folder.file("js0");
   int device = -1;
 };
 

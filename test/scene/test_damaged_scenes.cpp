@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <random>
 #include <regex>
@@ -14,6 +12,7 @@
 #include "common/error.h"
 #include "scene/scene_file.h"
 #include "test/common/random_damage.h"
+#include "test/common/temporary_folder.h"
 
 // Damaged scene files: the parser returns a scene that holds the file's numbers, or throws InputError.
 
@@ -33,12 +32,6 @@ std::vector<std::string> sceneFiles()
       files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
-}
-
-std::string contentOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 const std::vector<std::string> kYamlTexts = {"\n",    "  ",   ": ",        "- ",   "[",
@@ -67,7 +60,7 @@ TEST(DamagedScene, IsReadConsistentlyOrRejected)
   for (int k = 0; k < kMutations; ++k)
   {
     const std::string& file = files[static_cast<std::size_t>(k) % files.size()];
-    const std::string damaged = damage.of(contentOf(file));
+    const std::string damaged = damage.of(test::contentOf(file));
     try
     {
       const Scene scene = parseScene(damaged, file);
@@ -106,7 +99,7 @@ TEST(DamagedScene, HoldsEveryChangedNumberOrIsRejected)
     if (text.empty())
       try
       {
-        text = parseScene(contentOf(file), file).resolved_yaml;
+        text = parseScene(test::contentOf(file), file).resolved_yaml;
       }
       catch (const InputError&)
       {

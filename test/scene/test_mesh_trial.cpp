@@ -1,11 +1,11 @@
 #include "scene/mesh_trial.h"
 
-#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 #include "vessel/anatomy/tube.h"
 #include "vessel/centreline/centreline_file.h"
 #include "vessel/io/mesh_reader.h"
@@ -18,9 +18,6 @@ namespace
 class MeshTrialOfATube : public ::testing::Test
 {
 protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /** Writes a tube with its centreline. @return the reason of a refusal */
   std::string write(double length, double curvature, double radius = 3e-3)
   {
@@ -40,9 +37,9 @@ protected:
     return inputErrorOf([&] { trial_ = tryMesh(mesh_file_, centreline_file_); });
   }
 
-  const std::string folder_ = ::testing::TempDir() + "/mesh trial's #1";
-  const std::string mesh_file_ = folder_ + "/a tube.obj";
-  const std::string centreline_file_ = folder_ + "/a tube.yaml";
+  const test::TemporaryFolder folder_;
+  const std::string mesh_file_ = folder_.file("mesh trial's #1.obj");
+  const std::string centreline_file_ = folder_.file("mesh trial's #1.yaml");
   geometry::TriangleMesh mesh_;
   vessel::CentrelineTree tree_;
   MeshTrial trial_;

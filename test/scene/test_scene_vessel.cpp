@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 #include <Eigen/Geometry>
 
 #include "geometry/mesh_distance.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 #include "test/vessel/repair/swept_meshes.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/repair/mesh_check.h"
@@ -48,9 +48,9 @@ VesselScene forkScene()
 /** Scene of a mesh in metres that is written to a file. */
 VesselScene writtenScene(const geometry::TriangleMesh& mesh, const std::string& comment = "")
 {
+  static const test::TemporaryFolder folder;
   VesselScene scene;
-  scene.mesh = testing::TempDir() + "/written.obj";
-  scene.unit = 1.0;
+  scene.mesh = folder.file("written.obj");
   vessel::writeObj(mesh, scene.mesh);
   if (!comment.empty())
     std::ofstream(scene.mesh, std::ios::app) << "# " << comment << "\n";
@@ -188,10 +188,7 @@ TEST(SceneVessel, PlacesTheEntryAtTheNearestCentrelineEnd)
 
 TEST(SceneVessel, ExtractsTheCentrelineOfAMeshFileIfRequired)
 {
-  const std::string file = testing::TempDir() + "/scene_vessel_tube.obj";
-  vessel::writeObj(buildVessel(tubeScene(), EntryScene(), "scene.yaml").mesh, file);
-  VesselScene scene;
-  scene.mesh = file;
+  const VesselScene scene = writtenScene(buildVessel(tubeScene(), EntryScene(), "scene.yaml").mesh);
   EntryScene entry;
   EXPECT_TRUE(buildVessel(scene, entry, "scene.yaml").centreline.branches.empty());
   EXPECT_EQ(buildVessel(scene, entry, "scene.yaml", CentrelineUse::kRequired).centreline.branches.size(), 1U);
@@ -203,16 +200,12 @@ TEST(SceneVessel, ExtractsTheCentrelineOfAMeshFileIfRequired)
   EXPECT_LT(pose.direction.z(), -0.99);
   EXPECT_LT(pose.position.head<2>().norm(), 0.2e-3);
   EXPECT_GT(pose.position.z(), 0.04);
-  std::filesystem::remove(file);
 }
 
 TEST(SceneVessel, TakesTheCentrelineOfAMeshWithItsNamesFromAFile)
 {
-  const std::string file = testing::TempDir() + "/scene_vessel_fork.obj";
   const VesselScene fork = forkScene();
-  vessel::writeObj(buildVessel(fork, EntryScene(), "scene.yaml").mesh, file);
-  VesselScene scene;
-  scene.mesh = file;
+  VesselScene scene = writtenScene(buildVessel(fork, EntryScene(), "scene.yaml").mesh);
   scene.centreline = fork.anatomy;
   scene.transform.translation() = Eigen::Vector3d(0.1, -0.2, 0.3);
   vessel::Lesion lesion;
@@ -231,23 +224,18 @@ TEST(SceneVessel, TakesTheCentrelineOfAMeshWithItsNamesFromAFile)
   const vessel::Vessel original = buildVessel(fork, entry, "scene.yaml");
   const EntryPose unmoved = resolveEntry(entry, original, "scene.yaml");
   EXPECT_LT((pose.position - unmoved.position - scene.transform.translation()).norm(), 1e-4);
-  std::filesystem::remove(file);
 }
 
 TEST(SceneVessel, RejectsTheCentrelineOfAnotherVesselAndNamesAPointOutside)
 {
-  const std::string file = testing::TempDir() + "/scene_vessel_other.obj";
   geometry::TriangleMesh mesh = buildVessel(forkScene(), EntryScene(), "scene.yaml").mesh;
   for (Eigen::Vector3d& v : mesh.vertices)
     v.x() += 0.05;
-  vessel::writeObj(mesh, file);
-  VesselScene scene;
-  scene.mesh = file;
+  VesselScene scene = writtenScene(mesh);
   scene.centreline = forkScene().anatomy;
   const std::string text = inputErrorOf([&] { buildVessel(scene, EntryScene(), "scene.yaml"); });
   EXPECT_NE(text.find("fork.yaml"), std::string::npos) << text;
   EXPECT_NE(text.find("lies outside of the mesh"), std::string::npos) << text;
-  std::filesystem::remove(file);
 }
 
 TEST(SceneVessel, ListsTheEndsIfTheNamedOneDoesNotExist)

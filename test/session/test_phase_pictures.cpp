@@ -1,16 +1,13 @@
 #include "scene/scene_file.h"
 #include "session/phase_pictures.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::session
 {
@@ -46,33 +43,25 @@ void takePictures(const scene::Scene& scene, const std::string& folder)
       << session.scriptedOperator()->failure();
 }
 
-std::string contentOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
 {
-  const std::string folder = testing::TempDir() + "phase_pictures_" + std::to_string(getpid());
-  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder);
-  EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_01.png"), 100U);
-  EXPECT_GT(std::filesystem::file_size(folder + "/fluoroscopy/phase_02.png"), 100U);
-  EXPECT_FALSE(std::filesystem::exists(folder + "/fluoroscopy/phase_03.png"));
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
+  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder.path());
+  EXPECT_GT(std::filesystem::file_size(folder.file("fluoroscopy/phase_01.png")), 100U);
+  EXPECT_GT(std::filesystem::file_size(folder.file("fluoroscopy/phase_02.png")), 100U);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("fluoroscopy/phase_03.png")));
 }
 
 TEST(PhasePictures, HaveTheViewOfTheirPhase)
 {
-  const std::string folder = testing::TempDir() + "phase_views_" + std::to_string(getpid());
-  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder + "/ap");
-  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n", ", view: LAO 40 CRA 30"), folder + "/views");
-  takePictures(twoPhases("fluoroscopy: {pixels: 64, view: LAO 40 CRA 30}\n"), folder + "/oblique");
-  const auto picture = [&folder](const std::string& name) { return contentOf(folder + name); };
-  EXPECT_EQ(picture("/views/fluoroscopy/phase_01.png"), picture("/ap/fluoroscopy/phase_01.png"));
-  EXPECT_NE(picture("/views/fluoroscopy/phase_02.png"), picture("/ap/fluoroscopy/phase_02.png"));
-  EXPECT_NE(picture("/oblique/fluoroscopy/phase_01.png"), picture("/ap/fluoroscopy/phase_01.png"));
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
+  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder.file("ap"));
+  takePictures(twoPhases("fluoroscopy: {pixels: 64}\n", ", view: LAO 40 CRA 30"), folder.file("views"));
+  takePictures(twoPhases("fluoroscopy: {pixels: 64, view: LAO 40 CRA 30}\n"), folder.file("oblique"));
+  const auto picture = [&folder](const std::string& name) { return test::contentOf(folder.path() / name); };
+  EXPECT_EQ(picture("views/fluoroscopy/phase_01.png"), picture("ap/fluoroscopy/phase_01.png"));
+  EXPECT_NE(picture("views/fluoroscopy/phase_02.png"), picture("ap/fluoroscopy/phase_02.png"));
+  EXPECT_NE(picture("oblique/fluoroscopy/phase_01.png"), picture("ap/fluoroscopy/phase_01.png"));
 }
 
 TEST(PhasePictures, ShowTheInsertedInstruments)

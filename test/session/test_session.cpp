@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -15,6 +13,7 @@
 #include "simulation/instrument_tip.h"
 #include "simulation/local_deformable_wall.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::session
 {
@@ -49,12 +48,6 @@ std::uint64_t hashAfter(Session& session, int steps)
 {
   session.step(steps);
   return session.simulation().trajectoryHash();
-}
-
-std::string contentOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 TEST(Session, FindsABundledSceneByItsName)
@@ -552,21 +545,19 @@ TEST(Session, RefusesAnImageOfASceneWithoutFluoroscopy)
 
 TEST(Session, WritesItsResults)
 {
-  const std::string folder = testing::TempDir() + "session_results";
-  std::filesystem::remove_all(folder);
+  const test::TemporaryFolder folder;
   SessionSettings settings;
   settings.results = true;
   Session session(tubeWithOperator(), settings);
   while (session.step(100) > 0)
   {
   }
-  session.finish(folder);
+  session.finish(folder.path());
   for (const char* file : {"result.json", "scene.yaml", "wall_forces.csv", "vessel_points.csv", "metrics.json",
                            "metrics.html", "instruments.csv"})
-    EXPECT_GT(std::filesystem::file_size(folder + "/" + file), 0U) << file;
-  EXPECT_EQ(contentOf(folder + "/result.json"), session.record().resultJson());
+    EXPECT_GT(std::filesystem::file_size(folder.path() / file), 0U) << file;
+  EXPECT_EQ(test::contentOf(folder.file("result.json")), session.record().resultJson());
   EXPECT_EQ(session.record().metrics()->steps().size(), 2U);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Session, WritesNoResultsThatItHasNotGathered)

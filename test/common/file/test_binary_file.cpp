@@ -1,12 +1,12 @@
 #include "common/file/binary_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "common/error.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim
 {
@@ -16,16 +16,12 @@ namespace
 class CacheFile : public testing::Test
 {
 protected:
-  CacheFile() : folder_(std::filesystem::temp_directory_path() / ("cache_" + std::to_string(getpid())))
-  {
-    writeCacheFile(file(), 77, {bytesOf(values_), "text"});
-  }
-  ~CacheFile() override { std::filesystem::remove_all(folder_); }
+  CacheFile() { writeCacheFile(file(), 77, {bytesOf(values_), "text"}); }
 
-  std::string file() const { return (folder_ / "entry").string(); }
+  std::string file() const { return folder_.file("entry"); }
 
   const std::vector<std::uint16_t> values_ = {1, 2, 65535};
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(CacheFile, HoldsItsPartsUnderTheKey)
@@ -65,7 +61,7 @@ TEST_F(CacheFile, IsNothingAfterAnyDamage)
 TEST_F(CacheFile, LeavesNoTemporaryFileAndNamesTheReasonOfAFailure)
 {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
     files += entry.exists() ? 1 : 0;
   EXPECT_EQ(files, 1U);
   EXPECT_THROW(writeBinaryFile("/nowhere/file", {"a"}), InputError);

@@ -4,12 +4,12 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "common/error.h"
 #include "haptics/device/motion_script.h"
 #include "haptics/host/haptic_link.h"
+#include "test/common/temporary_folder.h"
 #include "test/haptics/host_fixture.h"
 
 namespace endovascular_sim::haptics
@@ -17,15 +17,10 @@ namespace endovascular_sim::haptics
 namespace
 {
 
-std::filesystem::path temporary(const std::string& name)
-{
-  return std::filesystem::temp_directory_path() / ("evs_" + std::to_string(getpid()) + "_" + name);
-}
-
 /** Simulator and link on a real pty in simulated time, in steps of 0.1 ms; the simulation responds immediately. */
 struct SimulatorBench
 {
-  explicit SimulatorBench(double baud = 230400.0) : link_path(temporary("device").string())
+  explicit SimulatorBench(double baud = 230400.0)
   {
     SimulatorOptions options;
     options.link = link_path;
@@ -54,7 +49,8 @@ struct SimulatorBench
   }
 
   double now = 10.0;
-  std::string link_path;
+  test::TemporaryFolder folder;
+  std::string link_path = folder.file("device");
   std::optional<DeviceSimulator> simulator;
   std::optional<HapticLink> link;
 };
@@ -104,37 +100,31 @@ TEST(DeviceSimulator, RestartsItsCountAfterAReplugWithoutAJumpOfTheCommand)
 
 TEST(DeviceSimulator, DoesNotReplaceAFileThatIsNotALink)
 {
-  const auto path = temporary("file");
-  std::ofstream(path) << "content";
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("file", "content");
   Pty pty;
-  EXPECT_THROW(pty.plug(path.string()), InputError);
+  EXPECT_THROW(pty.plug(path), InputError);
   EXPECT_EQ(std::filesystem::file_size(path), 7U);
-  std::filesystem::remove(path);
 }
 
 TEST(MotionScript, InterpolatesAndHolds)
 {
-  const auto path = temporary("script.csv");
-  std::ofstream(path) << "time,insertion,rotation\n# a comment\n1, 0.1, 1\n\n3, 0.3, -1\n";
-  const MotionScript script = MotionScript::load(path.string());
+  const test::TemporaryFolder folder;
+  const MotionScript script = MotionScript::load(
+      folder.write("script.csv", "time,insertion,rotation\n# a comment\n1, 0.1, 1\n\n3, 0.3, -1\n"));
   EXPECT_EQ(script.at(0.0).insertion, 0.1);
   EXPECT_DOUBLE_EQ(script.at(2.0).insertion, 0.2);
   EXPECT_DOUBLE_EQ(script.at(2.0).rotation, 0.0);
   EXPECT_EQ(script.at(9.0).insertion, 0.3);
   EXPECT_EQ(script.duration(), 3.0);
-  std::filesystem::remove(path);
 }
 
 TEST(MotionScript, RejectsInvalidRowsWithTheirLineNumber)
 {
-  const auto path = temporary("bad.csv");
+  const test::TemporaryFolder folder;
   for (const char* text : {"1,2\n", "1,2,3,4\n", "1,0,0\n1,0,0\n", "1,nan,0\n", "", "1,x,0\n"})
-  {
-    std::ofstream(path) << text;
-    EXPECT_THROW(MotionScript::load(path.string()), InputError) << text;
-  }
-  std::filesystem::remove(path);
-  EXPECT_THROW(MotionScript::load(path.string()), InputError);
+    EXPECT_THROW(MotionScript::load(folder.write("bad.csv", text)), InputError) << text;
+  EXPECT_THROW(MotionScript::load(folder.file("missing.csv")), InputError);
 }
 
 TEST(LatencyRecord, ReturnsExactPercentiles)

@@ -10,6 +10,7 @@
 
 #include "haptics/serial/pty.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 #include "test/haptics/host_fixture.h"
 
 namespace endovascular_sim::haptics
@@ -21,15 +22,7 @@ namespace
 class PtyDevice
 {
 public:
-  PtyDevice() : folder_(std::filesystem::temp_directory_path() / ("evs_pty_" + std::to_string(getpid())))
-  {
-    std::filesystem::create_directories(folder_);
-  }
-  ~PtyDevice()
-  {
-    unplug();
-    std::filesystem::remove_all(folder_);
-  }
+  ~PtyDevice() { unplug(); }
 
   void plug()
   {
@@ -69,12 +62,12 @@ public:
     return forces;
   }
 
-  std::string path() const { return (folder_ / "haptic").string(); }
+  std::string path() const { return folder_.file("haptic"); }
 
   std::optional<RosserialDevice> device;
 
 private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
   int master_ = -1;
 };
 
@@ -208,8 +201,8 @@ TEST(SerialPort, OpensAtAnySpeedSuchAs250000OfArduino)
 {
   EXPECT_NO_THROW(SerialPort::checkBaud(250000, "baud"));
   Pty pty;
-  const std::string link =
-      (std::filesystem::temp_directory_path() / ("any_speed_" + std::to_string(getpid()))).string();
+  const test::TemporaryFolder folder;
+  const std::string link = folder.file("device");
   pty.plug(link);
   SerialPort port;
   EXPECT_TRUE(port.open(link, 250000)) << port.error();

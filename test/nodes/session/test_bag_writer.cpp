@@ -3,25 +3,18 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 #include <thread>
 
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 
+#include "test/common/temporary_folder.h"
+
 namespace endovascular_sim::nodes
 {
 namespace
 {
-
-std::string freshFile(const std::string& name)
-{
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / (name + std::to_string(::getpid()) + ".bag");
-  std::filesystem::remove(file);
-  return file.string();
-}
 
 boost::shared_ptr<geometry_msgs::PointStamped> pointAt(double time)
 {
@@ -33,19 +26,19 @@ boost::shared_ptr<geometry_msgs::PointStamped> pointAt(double time)
 
 TEST(BagWriter, WritesFewMessagesBeforeItIsClosed)
 {
-  const std::string file = freshFile("few");
-  BagWriter writer(file);
+  const test::TemporaryFolder folder;
+  BagWriter writer(folder.file("few.bag"));
   writer.write("/point", ros::Time(1.0), pointAt(1.0));
   for (int k = 0; k < 500 && writer.messages() == 0; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(writer.messages(), 1U);
   writer.close();
-  std::filesystem::remove(file);
 }
 
 TEST(BagWriter, RetainsOrderAndTimesOfAllMessages)
 {
-  const std::string file = freshFile("many");
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("many.bag");
   {
     BagWriter writer(file);
     for (int k = 1; k <= 3000; ++k)
@@ -66,7 +59,6 @@ TEST(BagWriter, RetainsOrderAndTimesOfAllMessages)
   }
   EXPECT_EQ(next, 3001);
   bag.close();
-  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -1,8 +1,4 @@
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -11,6 +7,7 @@
 #include "nodes/session/recorded_simulation.h"
 #include "nodes/session/session_bag.h"
 #include "test/common/random_damage.h"
+#include "test/common/temporary_folder.h"
 #include "test/fuzz/small_session_bag.h"
 
 // Damaged bags: a replay reports the damage, or its trajectory is that of the undamaged bag.
@@ -34,18 +31,11 @@ enum class Result
 class DamagedBag : public testing::TestWithParam<rosbag::CompressionType>
 {
 protected:
-  DamagedBag()
-    : file_((std::filesystem::temp_directory_path() / ("damaged_bag" + std::to_string(::getpid()) + ".bag")).string())
-  {
-  }
-  ~DamagedBag() override { std::filesystem::remove(file_); }
-
   /** Records a session. @return content of the bag */
   std::string recorded()
   {
     trajectory_hash_ = fuzz::writeSmallSession(file_, GetParam());
-    std::ifstream stream(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    return test::contentOf(file_);
   }
 
   /** Replays a bag with the given content. */
@@ -71,7 +61,8 @@ protected:
   }
 
 private:
-  std::string file_;
+  test::TemporaryFolder folder_;
+  const std::string file_ = folder_.file("damaged.bag");
   std::uint64_t trajectory_hash_ = 0;  ///< of the recorded session
 };
 

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::nodes
 {
@@ -25,7 +25,6 @@ class SessionBagFile : public testing::Test
 {
 protected:
   SessionBagFile()
-    : file_((std::filesystem::temp_directory_path() / ("session_bag" + std::to_string(::getpid()) + ".bag")).string())
   {
     info_.scene_name = "tube";
     info_.scene_yaml = "name: tube\n";
@@ -36,7 +35,6 @@ protected:
     info_.commit = "0123456789ab";
     info_.physics_number = kPhysicsNumber;
   }
-  ~SessionBagFile() override { std::filesystem::remove(file_); }
 
   template <typename Info>
   void write(const Info& info, int steps = 3) const
@@ -76,7 +74,8 @@ protected:
     return inputErrorOf([&] { readSessionBag(file_); });
   }
 
-  std::string file_;
+  test::TemporaryFolder folder_;
+  const std::string file_ = folder_.file("session.bag");
   SessionInfo info_;
 };
 

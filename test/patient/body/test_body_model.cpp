@@ -1,13 +1,13 @@
 #include "patient/body/body_model.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/error.h"
+#include "test/common/temporary_folder.h"
 #include "test/fluoroscopy/shapes.h"
 #include "vessel/anatomy/anatomy_mesh.h"
 #include "vessel/io/mesh_reader.h"
@@ -132,7 +132,8 @@ TEST(BodyModel, EqualInputsGiveEqualBytesAndTheSeedChangesThem)
 
 TEST(BodyModel, IsTakenFromTheCacheWhichADamagedEntryDoesNotStop)
 {
-  const std::string folder = (std::filesystem::temp_directory_path() / ("body_" + std::to_string(getpid()))).string();
+  const test::TemporaryFolder temporary;
+  const std::string folder = temporary.path();
   vessel::Vessel none;
   const PatientVolume made = loadBody(none, {8e-3, 1}, folder);
   const PatientVolume cached = loadBody(none, {8e-3, 1}, folder);
@@ -141,7 +142,6 @@ TEST(BodyModel, IsTakenFromTheCacheWhichADamagedEntryDoesNotStop)
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     std::filesystem::resize_file(entry.path(), 1000);
   EXPECT_EQ(loadBody(none, {8e-3, 1}, folder).volume->voxels(), made.volume->voxels());
-  std::filesystem::remove_all(folder);
   EXPECT_NE(loadBody(none, {8e-3, 1}, "/proc/none").notes.back().find("not cached"), std::string::npos);
 }
 

@@ -1,12 +1,10 @@
 #include "segmentation/clicks/click_set.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include <gtest/gtest.h>
 
 #include "common/error.h"
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::segmentation
 {
@@ -16,15 +14,7 @@ namespace
 class Clicks : public ::testing::Test
 {
 protected:
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name, const std::string& text)
-  {
-    std::filesystem::create_directories(folder_);
-    const std::string path = folder_ + "/" + name;
-    std::ofstream(path) << text;
-    return path;
-  }
+  std::string file(const std::string& name, const std::string& text) { return folder_.write(name, text); }
 
   std::string errorOf(const std::string& name, const std::string& text)
   {
@@ -32,7 +22,7 @@ protected:
   }
 
 private:
-  std::string folder_ = ::testing::TempDir() + "/clicks_test";
+  test::TemporaryFolder folder_;
 };
 
 const char* const kYaml = R"(frame: RAS

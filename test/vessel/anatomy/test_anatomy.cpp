@@ -4,11 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "common/error.h"
+#include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::vessel
 {
@@ -49,20 +50,9 @@ TEST_P(RejectedAnatomy, ReportsFileKeyAndRemedy)
   const std::size_t at = text.find(GetParam().from);
   ASSERT_NE(at, std::string::npos);
   text.replace(at, std::string(GetParam().from).size(), GetParam().to);
-  const std::string file = (std::filesystem::temp_directory_path() /
-                            ("anatomy_" + std::to_string(getpid()) + "_" + GetParam().name + ".yaml"))
-                               .string();
-  std::ofstream(file) << text;
-  std::string reason;
-  try
-  {
-    sampleChains(readAnatomy(file));
-  }
-  catch (const InputError& error)
-  {
-    reason = error.what();
-  }
-  std::filesystem::remove(file);
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("anatomy.yaml", text);
+  const std::string reason = inputErrorOf([&] { sampleChains(readAnatomy(file)); });
   EXPECT_EQ(reason.find(file), 0U) << reason;
   EXPECT_NE(reason.find(GetParam().key), std::string::npos) << reason;
   EXPECT_NE(reason.find(GetParam().remedy), std::string::npos) << reason;
@@ -167,18 +157,15 @@ TEST(AnatomyFile, TakesFacetsOfABranchAndTheBlendingOfABulge)
 {
   const auto replaced = [](std::string text, const std::string& from, const std::string& to)
   { return text.replace(text.find(from), from.size(), to); };
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("anatomy_keys_" + std::to_string(getpid()) + ".yaml")).string();
   std::string text = replaced(forkText(), "    parent: trunk\n", "    parent: trunk\n    facets_around: 12\n");
   text = replaced(text, "    radius: 4\n", "    radius: 4\n    blend: 0.3\n");
-  std::ofstream(file) << text;
-  const Anatomy anatomy = readAnatomy(file);
+  const test::TemporaryFolder folder;
+  const Anatomy anatomy = readAnatomy(folder.write("anatomy.yaml", text));
   EXPECT_EQ(anatomy.branches[2].facets_around, 12);
   EXPECT_EQ(anatomy.branches[0].facets_around, 0);
   EXPECT_EQ(sampleChains(anatomy)[1].facets_around, 12);
   EXPECT_EQ(anatomy.bulges[0].blend, 0.3);
   EXPECT_EQ(readAnatomy(kFork).bulges[0].blend, readAnatomy(kFork).blend);
-  std::filesystem::remove(file);
 }
 
 }  // namespace

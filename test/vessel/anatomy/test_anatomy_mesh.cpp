@@ -2,7 +2,6 @@
 #include "vessel/anatomy/anatomy_mesh.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "geometry/mesh_distance.h"
 #include "geometry/mesh_topology.h"
 #include "geometry/polyline.h"
+#include "test/common/temporary_folder.h"
 #include "vessel/anatomy/implicit_vessel.h"
 #include "vessel/io/mesh_cache.h"
 #include "vessel/repair/mesh_check.h"
@@ -29,32 +29,13 @@ const std::string kFork = std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml";
 const std::string kPlain = std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml";
 const std::string kNatural = std::string(PROJECT_DIR) + "/config/anatomies/natural.yaml";
 
-/** Temporary folder that is removed after the test. */
-class CacheFolder
+std::string onlyFileOf(const test::TemporaryFolder& folder)
 {
-public:
-  CacheFolder()
-    : path_((std::filesystem::temp_directory_path() / ("anatomy_cache_" + std::to_string(getpid()))).string())
-  {
-    std::filesystem::remove_all(path_);
-  }
-  CacheFolder(const CacheFolder&) = delete;
-  CacheFolder& operator=(const CacheFolder&) = delete;
-  ~CacheFolder() { std::filesystem::remove_all(path_); }
-
-  const std::string& path() const { return path_; }
-
-  std::string onlyFile() const
-  {
-    std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      files.push_back(entry.path().string());
-    return files.size() == 1 ? files[0] : std::string();
-  }
-
-private:
-  std::string path_;
-};
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    files.push_back(entry.path().string());
+  return files.size() == 1 ? files[0] : std::string();
+}
 
 /** Mean distance from the axis to the wall along rays normal to the axis. */
 double meanRadius(const geometry::MeshDistance& wall, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis)
@@ -194,9 +175,9 @@ TEST(AnatomyMesh, RejectsBranchesThatFormALoop)
 
 TEST(AnatomyCache, ReturnsTheSameMeshAndRebuildsDamagedEntries)
 {
-  const CacheFolder folder;
+  const test::TemporaryFolder folder;
   const std::uint64_t hash = loadAnatomy(kFork, folder.path()).mesh.hash();
-  const std::string file = folder.onlyFile();
+  const std::string file = onlyFileOf(folder);
   ASSERT_FALSE(file.empty());
   const Vessel cached = loadAnatomy(kFork, folder.path());
   EXPECT_EQ(cached.mesh.hash(), hash);
@@ -214,21 +195,21 @@ TEST(AnatomyCache, ReturnsTheSameMeshAndRebuildsDamagedEntries)
 
   std::filesystem::resize_file(file, 1000);
   EXPECT_NE(loadAnatomy(kFork, folder.path()).notes.at(0).find("generated"), std::string::npos);
-  EXPECT_EQ(folder.onlyFile(), file) << "no temporary file remains";
+  EXPECT_EQ(onlyFileOf(folder), file) << "no temporary file remains";
 }
 
 TEST(AnatomyCache, ReturnsNothingUnderAnotherKey)
 {
-  const CacheFolder folder;
+  const test::TemporaryFolder folder;
   geometry::TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
-  const std::string file = folder.path() + "/x.mesh";
+  const std::string file = folder.file("x.mesh");
   ASSERT_TRUE(writeCachedMesh(file, 7, mesh));
   ASSERT_TRUE(readCachedMesh(file, 7).has_value());
   EXPECT_EQ(readCachedMesh(file, 7)->hash(), mesh.hash());
   EXPECT_FALSE(readCachedMesh(file, 8).has_value());
-  EXPECT_FALSE(readCachedMesh(folder.path() + "/absent.mesh", 7).has_value());
+  EXPECT_FALSE(readCachedMesh(folder.file("absent.mesh"), 7).has_value());
 }
 
 TEST(AnatomyCache, ToleratesAReadOnlyFolder)

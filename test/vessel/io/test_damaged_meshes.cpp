@@ -2,8 +2,6 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -12,6 +10,7 @@
 #include "common/error.h"
 #include "test/common/input_error_of.h"
 #include "test/common/random_damage.h"
+#include "test/common/temporary_folder.h"
 #include "test/vessel/io/mesh_files.h"
 #include "vessel/io/mesh_reader.h"
 #include "vessel/repair/lumen_check.h"
@@ -47,16 +46,16 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
 {
   const std::string small = meshFile(capsule(16, 10), GetParam());
   const std::string large = meshFile(capsule(64, 38), GetParam());
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("damaged_" + std::to_string(::getpid()) + extensionOf(GetParam()));
+  const test::TemporaryFolder folder;
+  const std::string name = "damaged" + extensionOf(GetParam());
   test::RandomDamage damage(1, kNumbers, 16);
   int accepted = 0;
   for (int k = 0; k < kMutations; ++k)
   {
-    std::ofstream(file, std::ios::binary) << damage.of(k % 20 == 0 ? large : small, 8);
+    const std::string file = folder.write(name, damage.of(k % 20 == 0 ? large : small, 8));
     try
     {
-      const geometry::TriangleMesh mesh = readMesh(file.string(), 1e-3);
+      const geometry::TriangleMesh mesh = readMesh(file, 1e-3);
       ++accepted;
       ASSERT_FALSE(mesh.triangles.empty());
       for (const Eigen::Vector3i& triangle : mesh.triangles)
@@ -66,29 +65,26 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
       }
       for (const Eigen::Vector3d& vertex : mesh.vertices)
         ASSERT_TRUE(vertex.allFinite()) << k;
-      prepare(mesh, file.string());
+      prepare(mesh, file);
     }
     catch (const InputError& error)
     {
-      ASSERT_NE(std::string(error.what()).find(file.filename().string()), std::string::npos) << error.what();
+      ASSERT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     }
   }
   EXPECT_LT(accepted, kMutations);
-  std::filesystem::remove(file);
 }
 
 TEST_P(DamagedMesh, IsAcceptedUndamaged)
 {
   const geometry::TriangleMesh mesh = capsule(64, 38);
   ASSERT_LE(mesh.triangles.size(), 5000U);
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("undamaged_" + std::to_string(::getpid()) + extensionOf(GetParam()));
-  std::ofstream(file, std::ios::binary) << meshFile(mesh, GetParam());
-  const geometry::TriangleMesh read = readMesh(file.string(), 1e-3);
+  const test::TemporaryFolder folder;
+  const geometry::TriangleMesh read =
+      readMesh(folder.write("undamaged" + extensionOf(GetParam()), meshFile(mesh, GetParam())), 1e-3);
   EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
   EXPECT_EQ(read.vertices.size(), mesh.vertices.size());
   EXPECT_TRUE(checkMesh(read).clean());
-  std::filesystem::remove(file);
 }
 
 INSTANTIATE_TEST_SUITE_P(MeshReader, DamagedMesh,
@@ -100,10 +96,8 @@ INSTANTIATE_TEST_SUITE_P(MeshReader, DamagedMesh,
 /** Error of reading a file with this content; empty if it is accepted. */
 std::string errorOf(const std::string& content, const std::string& extension)
 {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("mesh_" + std::to_string(::getpid()) + extension);
-  std::ofstream(file, std::ios::binary) << content;
-  return inputErrorOf([&] { readMesh(file.string(), 1.0); });
+  const test::TemporaryFolder folder;
+  return inputErrorOf([&] { readMesh(folder.write("mesh" + extension, content), 1.0); });
 }
 
 constexpr auto kPlyHeader =
@@ -154,12 +148,10 @@ TEST(MeshReader, RejectsStatementsThatAreNotOfTheFormat)
 
 TEST(MeshReader, ReportsItsProgressOnALargeMesh)
 {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("progress_" + std::to_string(::getpid()) + ".obj");
-  std::ofstream(file, std::ios::binary) << meshFile(capsule(200, 200), MeshFormat::kObj);
+  const test::TemporaryFolder folder;
   double last = 0.0;
   int reports = 0;
-  readMesh(file.string(), 1e-3,
+  readMesh(folder.write("large.obj", meshFile(capsule(200, 200), MeshFormat::kObj)), 1e-3,
            [&](const char* task, double fraction)
            {
              EXPECT_GE(fraction, 0.0);
@@ -171,25 +163,20 @@ TEST(MeshReader, ReportsItsProgressOnALargeMesh)
              ++reports;
            });
   EXPECT_GE(reports, 3);
-  std::filesystem::remove(file);
 }
 
 TEST(MeshReader, KeepsDoublePrecision)
 {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("precise_" + std::to_string(::getpid()) + ".obj");
-  std::ofstream(file) << "v 0.1234567890123456 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  EXPECT_EQ(readMesh(file.string(), 1.0).vertices[0].x(), 0.1234567890123456);
-  std::filesystem::remove(file);
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("a.obj", "v 0.1234567890123456 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(readMesh(file, 1.0).vertices[0].x(), 0.1234567890123456);
 }
 
 TEST(MeshReader, TriangulatesAConcavePolygonWithinItsOutline)
 {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("concave_" + std::to_string(::getpid()) + ".obj");
-  std::ofstream(file) << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n";
-  const geometry::TriangleMesh mesh = readMesh(file.string(), 1.0);
-  std::filesystem::remove(file);
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("a.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n");
+  const geometry::TriangleMesh mesh = readMesh(file, 1.0);
   ASSERT_EQ(mesh.triangles.size(), 3U);
   double area = 0.0;
   for (const Eigen::Vector3i& t : mesh.triangles)

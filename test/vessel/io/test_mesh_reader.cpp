@@ -5,9 +5,8 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
+#include "test/common/temporary_folder.h"
 #include "test/vessel/io/mesh_files.h"
 #include "vessel/repair/mesh_check.h"
 
@@ -67,12 +66,11 @@ TEST_P(EverySpace, OfSlicerIsTurnedToThePatientFrame)
   geometry::TriangleMesh ras = lps;
   for (Eigen::Vector3d& v : ras.vertices)
     v.head<2>() *= -1.0;
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("space_" + std::to_string(::getpid()) + extensionOf(GetParam()));
+  const test::TemporaryFolder folder;
   const auto read = [&](const geometry::TriangleMesh& mesh, const std::string& header, MeshRemarks& remarks)
   {
-    std::ofstream(file, std::ios::binary) << withHeader(mesh, GetParam(), header);
-    return readMesh(file.string(), 1e-3, {}, &remarks).hash();
+    const std::string file = folder.write("a" + extensionOf(GetParam()), withHeader(mesh, GetParam(), header));
+    return readMesh(file, 1e-3, {}, &remarks).hash();
   };
   MeshRemarks of_lps;
   MeshRemarks of_ras;
@@ -80,7 +78,6 @@ TEST_P(EverySpace, OfSlicerIsTurnedToThePatientFrame)
   EXPECT_TRUE(of_lps.notes.empty());
   ASSERT_EQ(of_ras.notes.size(), 1U);
   EXPECT_NE(of_ras.notes[0].find("SPACE=RAS"), std::string::npos);
-  std::filesystem::remove(file);
 }
 
 INSTANTIATE_TEST_SUITE_P(MeshReader, EverySpace,
@@ -90,13 +87,11 @@ INSTANTIATE_TEST_SUITE_P(MeshReader, EverySpace,
 
 TEST(MeshReader, ReadsAnObjAndAPlyAfterAByteOrderMark)
 {
+  const test::TemporaryFolder folder;
   for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kAsciiPly})
   {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("mark_" + std::to_string(::getpid()) + extensionOf(format));
-    std::ofstream(file, std::ios::binary) << "\xEF\xBB\xBF" << meshFile(capsule(16, 10), format);
-    EXPECT_EQ(errorMessage(file.string()), "");
-    std::filesystem::remove(file);
+    const std::string content = "\xEF\xBB\xBF" + meshFile(capsule(16, 10), format);
+    EXPECT_EQ(errorMessage(folder.write("a" + extensionOf(format), content)), "");
   }
 }
 

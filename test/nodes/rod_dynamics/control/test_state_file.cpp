@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "test/common/input_error_of.h"
+#include "test/common/temporary_folder.h"
 
 namespace endovascular_sim::nodes
 {
@@ -25,23 +26,13 @@ void write(const fs::path& file, const std::string& text)
   std::ofstream(file, std::ios::binary) << text;
 }
 
-std::string textOf(const fs::path& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 class StateFileTest : public testing::Test
 {
 protected:
-  StateFileTest()
-  {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "states");
-  }
-  ~StateFileTest() override { fs::remove_all(folder_); }
+  StateFileTest() { fs::create_directories(folder_ / "states"); }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / ("state_file_" + std::to_string(getpid()));
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(StateFileTest, IsWrittenAndReadAndReplacesAnEarlierState)
@@ -58,7 +49,7 @@ TEST_F(StateFileTest, DoesNotReplaceAFileThatIsNoState)
   const fs::path file = folder_ / "thesis.tex";
   write(file, "years of work");
   EXPECT_NE(inputErrorOf([&] { writeStateFile(file, kState); }).find("is no saved state"), std::string::npos);
-  EXPECT_EQ(textOf(file), "years of work");
+  EXPECT_EQ(test::contentOf(file), "years of work");
   write(file, "");
   EXPECT_NE(inputErrorOf([&] { writeStateFile(file, kState); }), "") << "an empty file";
 }
@@ -68,7 +59,7 @@ TEST_F(StateFileTest, DoesNotFollowALinkAtItsName)
   write(folder_ / "target", kState);
   fs::create_symlink(folder_ / "target", folder_ / "link");
   EXPECT_NE(inputErrorOf([&] { writeStateFile(folder_ / "link", kState + "!"); }), "");
-  EXPECT_EQ(textOf(folder_ / "target"), kState);
+  EXPECT_EQ(test::contentOf(folder_ / "target"), kState);
 }
 
 TEST_F(StateFileTest, DoesNotWriteThroughALinkAtAForeseeableName)
@@ -76,8 +67,8 @@ TEST_F(StateFileTest, DoesNotWriteThroughALinkAtAForeseeableName)
   write(folder_ / "victim", "precious");
   fs::create_symlink(folder_ / "victim", folder_ / "a.state.part");
   writeStateFile(folder_ / "a.state", kState);
-  EXPECT_EQ(textOf(folder_ / "victim"), "precious");
-  EXPECT_EQ(textOf(folder_ / "a.state"), kState);
+  EXPECT_EQ(test::contentOf(folder_ / "victim"), "precious");
+  EXPECT_EQ(test::contentOf(folder_ / "a.state"), kState);
 }
 
 TEST_F(StateFileTest, IsNeitherADeviceNorAPipeNorAFolder)
