@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "rod/kkt/kkt_stepper.h"
-#include "test/rod/plane_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod

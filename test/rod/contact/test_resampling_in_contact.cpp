@@ -5,6 +5,7 @@
 
 #include "rod/kkt/kkt_stepper.h"
 #include "rod/sampling/resampling.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod
@@ -17,34 +18,6 @@ constexpr int kEdges = 31;           // odd: the lowest edge is level
 constexpr double kCurvature = 20;    // 1/m
 constexpr double kStiffness = 3e-4;  // N·m²
 constexpr double kTimeStep = 1e-3;
-
-/** A soft floor at z = 0 that touches nodes only. */
-class SoftFloor : public contact::ContactSource
-{
-public:
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    set.features.clear();
-    set.first_edge = query.first_node;
-    set.free_distance.assign(query.nodes.size() - 1, 1.0);
-    const int n = static_cast<int>(query.nodes.size());
-    for (int i = 0; i < n; ++i)
-    {
-      contact::Feature feature;
-      feature.gap = query.nodes[i].z() - query.radius[i];
-      if (feature.gap > query.margin[i])
-        continue;
-      feature.edge = query.first_node + std::min(i, n - 2);
-      feature.parameter = i == n - 1 ? 1.0 : 0.0;
-      feature.point = Eigen::Vector3d(query.nodes[i].x(), query.nodes[i].y(), 0.0);
-      feature.normal = Eigen::Vector3d::UnitZ();
-      feature.stiffness = 5e6;
-      set.features.push_back(feature);
-    }
-  }
-
-  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
-};
 
 /** A free wire on the floor, bent upwards by couples at its ends. */
 struct Bowl
@@ -129,7 +102,8 @@ struct Bowl
   Discretisation coarse;
   KktStepper stepper;
   State state;
-  SoftFloor floor;
+  PlaneWall floor(0.0);
+  floor.stiffness = 5e6;
   std::uint64_t steps = 0;
 };
 

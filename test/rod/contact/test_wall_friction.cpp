@@ -9,8 +9,7 @@
 #include "rod/mixed/mixed_stepper.h"
 #include "rod/paper/paper_stepper.h"
 #include "rod/sampling/resampling.h"
-#include "test/rod/cylinder_wall.h"
-#include "test/rod/plane_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod

@@ -9,7 +9,7 @@
 
 #include "rod/contact/contact_solver.h"
 #include "rod/kkt/kkt_stepper.h"
-#include "test/rod/plane_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "rod/energy/energy_audit.h"
-#include "test/rod/plane_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
 
 // The energy audit against closed forms: falling, swinging and sliding wires.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "test/rod/cylinder_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/stack_fixtures.h"
 
 namespace endovascular_sim::rod

@@ -2,7 +2,7 @@
 
 #include "rod/sampling/adaptive_sampling.h"
 #include "test/rod/kkt_stepper_peer.h"
-#include "test/rod/plane_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/stack_fixtures.h"
 
 // A stack on a wall, whose friction acts on the outermost layer.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
 
 namespace endovascular_sim::rod
@@ -15,35 +16,6 @@ constexpr double kEi = 4.9469e-5;  // N·m², steel wire of 0.18 mm radius, E = 
 constexpr double kLength = 0.38;
 constexpr double kRadius = 1.8e-4;
 constexpr double kDensity = 7900.0;
-
-/** Lumen: the half-space z > 0; every node has the plane z = 0 as its feature. */
-class Floor : public contact::ContactSource
-{
-public:
-  bool silent = false;
-
-  void detect(const contact::Query& query, contact::ContactSet& set) override
-  {
-    set.stale = silent;
-    if (silent)
-      return;
-    set.features.clear();
-    for (std::size_t i = 0; i < query.nodes.size(); ++i)
-    {
-      contact::Feature feature;
-      const int node = query.first_node + static_cast<int>(i);
-      feature.edge = std::max(0, node - 1);
-      feature.parameter = node > 0 ? 1.0 : 0.0;
-      feature.normal = Eigen::Vector3d::UnitZ();
-      feature.point = Eigen::Vector3d(query.nodes[i].x(), query.nodes[i].y(), 0.0);
-      feature.gap = query.nodes[i].z() - query.radius[i];
-      if (feature.gap < query.margin[i])
-        set.features.push_back(feature);
-    }
-  }
-
-  void freeDistances(const contact::Query& query, double, contact::ContactSet& set) override { detect(query, set); }
-};
 
 Boundary freeBoundary()
 {
@@ -139,7 +111,7 @@ TEST(PaperStepper, ADrivenPreCurvedWireConvergesToTheKktSchemeWithTheTimeStep)
 double depthOnTheFloor(double load, double dt, double& mass)
 {
   const int nodes = 21;
-  Floor floor;
+  PlaneWall floor(0.0);
   PaperStepper stepper(discretiseUniformly(uniformWire(0.1, kEi, kRadius, kDensity), nodes), freeBoundary(),
                        Environment(), StepperSettings());
   State state = stepper.initialState(0.0, 0.0);
@@ -173,7 +145,7 @@ TEST(PaperStepper, AStaticLoadPenetratesByTheSquareOfTheTimeStepWhateverTheStiff
 
 TEST(PaperStepper, WaitsWhileContactSetsAreStaleAndContinuesAfterwards)
 {
-  Floor floor;
+  PlaneWall floor(0.0);
   PaperStepper stepper(discretiseUniformly(uniformWire(0.1, kEi, kRadius, kDensity), 21), freeBoundary(), Environment(),
                        StepperSettings());
   State state = stepper.initialState(0.0, 0.0);
@@ -186,12 +158,12 @@ TEST(PaperStepper, WaitsWhileContactSetsAreStaleAndContinuesAfterwards)
   PhaseTimer timer;
   StepInput input;
   std::uint32_t pass = 0;
-  floor.silent = true;
+  floor.stale = true;
   const StepReport waiting = stepper.step(state, input, 1e-3, pass, &floor, timer);
   EXPECT_EQ(waiting.first_stale_pass, 0u);
   EXPECT_EQ(state.position, before);
   EXPECT_TRUE(stepper.contactSet().stale);
-  floor.silent = false;
+  floor.stale = false;
   input.step = 1;
   pass = 0;
   input.forces.push_back({10, Eigen::Vector3d(0.001, 0.0, 0.0)});
@@ -275,7 +247,7 @@ TEST(PaperStepper, KeepsTheWireFiniteForExtremeInputs)
     const double dt = logarithmic(5e-5, 2e-2);
     const double speed = logarithmic(1e-3, 0.5);
     const double shake = logarithmic(1e-7, 3e-3);
-    Floor floor;
+    PlaneWall floor(0.0);
     Wire wire = uniformWire(0.1, logarithmic(1.6e-6, 5e-3), logarithmic(1e-4, 5e-4), kDensity);
     wire.sections.push_back(wire.sections[0]);
     wire.sections[1].length = 0.03;

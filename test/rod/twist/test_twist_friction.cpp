@@ -7,9 +7,8 @@
 
 #include "rod/kkt/kkt_stepper.h"
 #include "rod/sampling/resampling.h"
-#include "test/rod/plane_wall.h"
+#include "test/rod/node_wall.h"
 #include "test/rod/rod_fixtures.h"
-#include "test/rod/trough_wall.h"
 
 namespace endovascular_sim::rod
 {
