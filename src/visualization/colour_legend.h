@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "visualization/tube_mesh.h"
+#include "visualization/force_colour.h"
 
 namespace endovascular_sim::visualization
 {

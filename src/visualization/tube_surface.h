@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "visualization/tube_mesh.h"
+#include "visualization/force_colour.h"
 
 namespace endovascular_sim::visualization
 {

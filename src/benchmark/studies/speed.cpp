@@ -9,7 +9,7 @@
 #include "benchmark/studies/shared_wall.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "scene/file_search.h"
-#include "visualization/tube_mesh.h"
+#include "visualization/tube_surface.h"
 
 #if defined(__x86_64__)
 #include <x86intrin.h>
@@ -92,7 +92,16 @@ RenderingTime renderingTime(BenchRun& run)
   const rod::State& state = run.simulation().state();
   const std::vector<double>& radius = run.simulation().discretisation().radius;
   RenderingTime time;
-  time.surface = microsecondsOf([&] { visualization::tubeMesh(state.position, radius, 8); }, 5);
+  const visualization::TubeAxis axis{state.position, radius,
+                                     std::vector<visualization::TranslucentColour>(state.position.size())};
+  visualization::Surface surface;
+  time.surface = microsecondsOf(
+      [&]
+      {
+        surface.clear();
+        visualization::TubeBuilder(8).append(axis, surface);
+      },
+      5);
   fluoroscopy::CArmPose pose;
   pose.isocentre = state.position[state.position.size() / 2];
   fluoroscopy::Fluoroscope fluoroscope(

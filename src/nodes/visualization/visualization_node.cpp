@@ -6,14 +6,18 @@
 #include <regex>
 #include <sstream>
 
+#include <std_msgs/ColorRGBA.h>
+
 #include "intervention/stent_placement.h"
+#include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/message_checks.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/parameters.h"
 #include "nodes/runtime/ros_names.h"
-#include "visualization/tube_mesh.h"
+#include "visualization/force_colour.h"
+#include "visualization/tube_surface.h"
 
 namespace endovascular_sim::nodes
 {
@@ -31,18 +35,14 @@ constexpr double kLegendHeight = 12e-3;       ///< of the letters of the legend,
 constexpr double kHeatRadius = 2e-3;          ///< distance over which the colour of a touched triangle fades [m]
 constexpr double kHeatInset = 0.1e-3;         ///< distance of the coloured triangles from the wall, into the lumen [m]
 
-Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
+/** Points of the triangles of a surface. */
+std::vector<geometry_msgs::Point> pointsOf(const visualization::Surface& surface)
 {
-  return {point.x, point.y, point.z};
-}
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& vector)
-{
-  geometry_msgs::Point point;
-  point.x = vector.x();
-  point.y = vector.y();
-  point.z = vector.z();
-  return point;
+  std::vector<geometry_msgs::Point> points;
+  points.reserve(surface.triangles.size());
+  for (const std::uint32_t vertex : surface.triangles)
+    points.push_back(toPoint(surface.positions[vertex].cast<double>()));
+  return points;
 }
 
 /** Marker with a fixed namespace and id: every message replaces the last one. */
@@ -131,35 +131,36 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   if (state.nodes.empty())
     return;
 
-  std::vector<Eigen::Vector3d> nodes(state.nodes.size());
-  std::transform(state.nodes.begin(), state.nodes.end(), nodes.begin(), toEigen);
-  const visualization::TubeMesh mesh = visualization::tubeMesh(nodes, state.radius, kTubeSides, radius_scale_);
+  const std::vector<visualization::Colour> colours = nodeColours(state);
+  visualization::TubeAxis axis;
+  for (std::size_t i = 0; i < state.nodes.size(); ++i)
+    axis.add(fromMessage(state.nodes[i]), radius_scale_ * state.radius[i], {colours[i], 1.0F});
+  visualization::Surface surface;
+  visualization::TubeBuilder(kTubeSides).append(axis, surface);
   visualization_msgs::Marker tube = marker(state.header, "wire", visualization_msgs::Marker::TRIANGLE_LIST);
-  tube.points.resize(mesh.corners.size());
-  std::transform(mesh.corners.begin(), mesh.corners.end(), tube.points.begin(), toPoint);
-  const std::vector<std_msgs::ColorRGBA> colours = nodeColours(state);
+  tube.points = pointsOf(surface);
   if (!heat_)
     legend_place_ = state.nodes.front();
   drawLegend(state.header);
-  tube.colors.reserve(mesh.corners.size());
-  for (const std::size_t i : mesh.node_of_corner)
-    tube.colors.push_back(colours[i]);
+  tube.colors.reserve(tube.points.size());
+  for (const std::uint32_t vertex : surface.triangles)
+    tube.colors.push_back(toColour(surface.colours[vertex].colour, 1.0));
   // rviz rejects empty triangle lists: no marker before the first edge.
   if (!tube.points.empty())
     wire_publisher_.publish(tube);
-  drawTipPath(state.header, nodes.back());
+  drawTipPath(state.header, axis.points.back());
 }
 
-std::vector<std_msgs::ColorRGBA> VisualizationNode::nodeColours(const RodStateVisual& state)
+std::vector<visualization::Colour> VisualizationNode::nodeColours(const RodStateVisual& state)
 {
   std::vector<double> forces(state.nodes.size(), 0.0);
   for (std::size_t i = 0; i < std::min(forces.size(), state.contact_force.size()); ++i)
     forces[i] = std::hypot(state.contact_force[i].x, state.contact_force[i].y, state.contact_force[i].z);
   force_scale_.follow(*std::max_element(forces.begin(), forces.end()));
-  std::vector<std_msgs::ColorRGBA> colours;
+  std::vector<visualization::Colour> colours;
   colours.reserve(forces.size());
   for (const double force : forces)
-    colours.push_back(toColour(visualization::forceColour(force, forceScale()), 1.0));
+    colours.push_back(visualization::forceColour(force, forceScale()));
   return colours;
 }
 
@@ -187,7 +188,7 @@ void VisualizationNode::drawLegend(const std_msgs::Header& header)
 
 void VisualizationNode::drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip)
 {
-  if (!path_.empty() && (toEigen(path_.back()) - tip).norm() < kTipPathSpacing)
+  if (!path_.empty() && (fromMessage(path_.back()) - tip).norm() < kTipPathSpacing)
     return;
   path_.push_back(toPoint(tip));
   if (path_.size() > kTipPathPoints)
@@ -243,13 +244,15 @@ void VisualizationNode::drawBalloons(const TreatmentVisual& message)
   balloons.color.g = 0.9F;
   balloons.color.b = 0.6F;
   balloons.color.a = 0.5F;
+  visualization::TubeBuilder builder(kBalloonSides);
+  visualization::Surface surface;
   for (const TreatmentBody& body : message.balloons)
   {
     const intervention::RoundBody balloon = fromMessage(body);
-    for (const Eigen::Vector3d& corner :
-         visualization::tubeMesh(balloon.axis, balloon.radii, kBalloonSides, 1.0).corners)
-      balloons.points.push_back(toPoint(corner));
+    builder.append({balloon.axis, balloon.radii, std::vector<visualization::TranslucentColour>(balloon.axis.size())},
+                   surface);
   }
+  balloons.points = pointsOf(surface);
   publishOrDelete(balloons, balloon_publisher_);
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <ros/ros.h>
-#include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/Marker.h>
 
 #include "endovascular_sim/ContactForceMap.h"
@@ -15,6 +14,7 @@
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "visualization/colour_legend.h"
+#include "visualization/force_colour.h"
 #include "visualization/wall_heat_map.h"
 
 namespace endovascular_sim::nodes
@@ -32,7 +32,7 @@ private:
   static constexpr double kSmallestScale = 0.05;  ///< smallest value that is drawn red [N], [N·s] or [s]
 
   void drawWire(const RodStateVisual& state);
-  std::vector<std_msgs::ColorRGBA> nodeColours(const RodStateVisual& state);
+  std::vector<visualization::Colour> nodeColours(const RodStateVisual& state);
   void drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip);
   void receiveVessel(const VesselMesh& vessel);
   void drawVessel(const VesselMesh& vessel);
