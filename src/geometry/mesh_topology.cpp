@@ -72,4 +72,46 @@ std::vector<int> triangleComponents(const TriangleMesh& mesh, const std::vector<
   return component;
 }
 
+std::vector<int> cornerFans(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges)
+{
+  DisjointSets corners(3 * mesh.triangles.size());
+  const auto cornerAt = [&mesh](const HalfEdge& half_edge, int vertex)
+  {
+    const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
+    return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
+  };
+  for (std::size_t begin = 0; begin < half_edges.size();)
+  {
+    const std::size_t end = endOfEdge(half_edges, begin);
+    for (std::size_t k = begin + 1; k < end; ++k)
+      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
+        corners.join(cornerAt(half_edges[begin], vertex), cornerAt(half_edges[k], vertex));
+    begin = end;
+  }
+  std::vector<int> fans(3 * mesh.triangles.size());
+  for (std::size_t c = 0; c < fans.size(); ++c)
+    fans[c] = corners.find(static_cast<int>(c));
+  return fans;
+}
+
+std::vector<int> nonManifoldVertices(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges)
+{
+  const std::vector<int> fans = cornerFans(mesh, half_edges);
+  std::vector<int> first(mesh.vertices.size(), -1);
+  std::vector<bool> found(mesh.vertices.size(), false);
+  std::vector<int> vertices;
+  for (std::size_t c = 0; c < fans.size(); ++c)
+  {
+    const int vertex = mesh.triangles[c / 3][static_cast<int>(c % 3)];
+    const auto v = static_cast<std::size_t>(vertex);
+    if (first[v] < 0)
+      first[v] = fans[c];
+    if (first[v] == fans[c] || found[v])
+      continue;
+    found[v] = true;
+    vertices.push_back(vertex);
+  }
+  return vertices;
+}
+
 }  // namespace endovascular_sim::geometry

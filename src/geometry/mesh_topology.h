@@ -38,4 +38,11 @@ private:
 /** Connected component of each triangle (connected over edges), named by the component's smallest triangle index. */
 std::vector<int> triangleComponents(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges);
 
+/** Fan of each corner, 3·triangle + index of the corner: the faces of a vertex that are connected over its edges. It is
+ *  named by its smallest corner. */
+std::vector<int> cornerFans(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges);
+
+/** Vertices with several fans, in the order of their second ones; those of a manifold have one. */
+std::vector<int> nonManifoldVertices(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges);
+
 }  // namespace endovascular_sim::geometry

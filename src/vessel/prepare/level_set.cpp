@@ -73,32 +73,12 @@ std::vector<Eigen::Vector3d> nonManifoldLocations(const geometry::TriangleMesh& 
 {
   std::vector<Eigen::Vector3d> locations;
   const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
-  geometry::DisjointSets corners(3 * mesh.triangles.size());
   for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
-  {
-    const std::size_t end = geometry::endOfEdge(half_edges, begin);
-    const auto corner = [&](const geometry::HalfEdge& half_edge, int vertex)
-    {
-      const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
-      return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
-    };
-    if (end - begin != 2)
+    if (geometry::endOfEdge(half_edges, begin) - begin != 2)
       locations.emplace_back(0.5 * (mesh.vertices[static_cast<std::size_t>(half_edges[begin].low)] +
                                     mesh.vertices[static_cast<std::size_t>(half_edges[begin].high)]));
-    for (std::size_t k = begin + 1; k < end; ++k)
-      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
-        corners.join(corner(half_edges[begin], vertex), corner(half_edges[k], vertex));
-  }
-  std::vector<int> fan(mesh.vertices.size(), -1);
-  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
-  {
-    const auto v = static_cast<std::size_t>(mesh.triangles[c / 3][static_cast<int>(c % 3)]);
-    const int set = corners.find(static_cast<int>(c));
-    if (fan[v] < 0)
-      fan[v] = set;
-    else if (fan[v] != set)
-      locations.push_back(mesh.vertices[v]);
-  }
+  for (const int v : geometry::nonManifoldVertices(mesh, half_edges))
+    locations.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
   return locations;
 }
 

@@ -75,40 +75,6 @@ void checkEdges(const geometry::TriangleMesh& mesh, const std::vector<geometry::
   }
 }
 
-/** Finds non-manifold vertices: the faces of a manifold vertex, connected over its edges, form one fan. */
-void checkVertices(const geometry::TriangleMesh& mesh, const std::vector<geometry::HalfEdge>& half_edges,
-                   MeshReport& report)
-{
-  geometry::DisjointSets corners(3 * mesh.triangles.size());
-  const auto cornerAt = [&mesh](const geometry::HalfEdge& half_edge, int vertex)
-  {
-    const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
-    return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
-  };
-  for (std::size_t begin = 0; begin < half_edges.size();)
-  {
-    const std::size_t end = geometry::endOfEdge(half_edges, begin);
-    for (std::size_t k = begin + 1; k < end; ++k)
-      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
-        corners.join(cornerAt(half_edges[begin], vertex), cornerAt(half_edges[k], vertex));
-    begin = end;
-  }
-  std::vector<int> fan(mesh.vertices.size(), -1);
-  std::vector<bool> reported(mesh.vertices.size(), false);
-  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
-  {
-    const auto v = static_cast<std::size_t>(mesh.triangles[c / 3][static_cast<int>(c % 3)]);
-    const int set = corners.find(static_cast<int>(c));
-    if (fan[v] < 0)
-      fan[v] = set;
-    if (fan[v] != set && !reported[v])
-    {
-      reported[v] = true;
-      report.non_manifold_vertices.add(mesh.vertices[v]);
-    }
-  }
-}
-
 void checkComponents(const geometry::TriangleMesh& mesh, const std::vector<geometry::HalfEdge>& half_edges,
                      MeshReport& report)
 {
@@ -185,7 +151,8 @@ MeshReport checkMesh(const geometry::TriangleMesh& mesh)
   const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
   checkFaces(mesh, report);
   checkEdges(mesh, half_edges, report);
-  checkVertices(mesh, half_edges, report);
+  for (const int v : geometry::nonManifoldVertices(mesh, half_edges))
+    report.non_manifold_vertices.add(mesh.vertices[static_cast<std::size_t>(v)]);
   checkComponents(mesh, half_edges, report);
   report.signed_volume = mesh.signedVolume();
 

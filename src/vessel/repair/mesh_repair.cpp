@@ -157,26 +157,14 @@ int dropCrumbs(geometry::TriangleMesh& mesh)
 /** Splits non-manifold vertices: every fan of faces receives a vertex of its own. */
 int separateTouchingSheets(geometry::TriangleMesh& mesh)
 {
-  const std::vector<geometry::HalfEdge> half_edges = geometry::sortedHalfEdges(mesh);
-  geometry::DisjointSets corners(3 * mesh.triangles.size());
-  for (std::size_t begin = 0; begin < half_edges.size(); begin = geometry::endOfEdge(half_edges, begin))
-    for (std::size_t k = begin + 1; k < geometry::endOfEdge(half_edges, begin); ++k)
-      for (int vertex : {half_edges[begin].low, half_edges[begin].high})
-      {
-        const auto cornerAt = [&](const geometry::HalfEdge& half_edge)
-        {
-          const bool first = mesh.triangles[static_cast<std::size_t>(half_edge.triangle)][half_edge.side] == vertex;
-          return 3 * half_edge.triangle + (first ? half_edge.side : (half_edge.side + 1) % 3);
-        };
-        corners.join(cornerAt(half_edges[begin]), cornerAt(half_edges[k]));
-      }
+  const std::vector<int> fans = geometry::cornerFans(mesh, geometry::sortedHalfEdges(mesh));
   std::map<std::pair<int, int>, int> vertex_of_fan;
   std::vector<bool> taken(mesh.vertices.size(), false);
   int split = 0;
-  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
+  for (std::size_t c = 0; c < fans.size(); ++c)
   {
     int& corner = mesh.triangles[c / 3][static_cast<int>(c % 3)];
-    const auto [entry, is_new] = vertex_of_fan.try_emplace({corner, corners.find(static_cast<int>(c))}, corner);
+    const auto [entry, is_new] = vertex_of_fan.try_emplace({corner, fans[c]}, corner);
     if (is_new && taken[static_cast<std::size_t>(corner)])
     {
       entry->second = static_cast<int>(mesh.vertices.size());
