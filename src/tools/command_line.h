@@ -219,30 +219,29 @@ private:
   std::vector<std::function<std::string()>> conditions_;
 };
 
-/** Checks that a value is a finite number above zero. */
-inline CLI::Validator positiveNumber()
+/** Checks that a value is a number that meets a condition, which the message names, e.g. "above zero". */
+inline CLI::Validator numberWith(const std::function<bool(double)>& condition, const std::string& words)
 {
-  return {[](std::string& text) -> std::string
+  return {[condition, words](std::string& text) -> std::string
           {
             char* end = nullptr;
             const double value = std::strtod(text.c_str(), &end);
-            const bool good = !text.empty() && *end == '\0' && std::isfinite(value) && value > 0.0;
-            return good ? "" : "requires a number above zero, not '" + text + "'";
+            const bool good = !text.empty() && *end == '\0' && condition(value);
+            return good ? "" : "requires a number " + words + ", not '" + text + "'";
           },
           ""};
+}
+
+/** Checks that a value is a finite number above zero. */
+inline CLI::Validator positiveNumber()
+{
+  return numberWith([](double value) { return std::isfinite(value) && value > 0.0; }, "above zero");
 }
 
 /** Checks that a value is a number that is not negative; infinity is allowed. */
 inline CLI::Validator nonNegativeNumber()
 {
-  return {[](std::string& text) -> std::string
-          {
-            char* end = nullptr;
-            const double value = std::strtod(text.c_str(), &end);
-            const bool good = !text.empty() && *end == '\0' && value >= 0.0;
-            return good ? "" : "requires a number that is not negative, not '" + text + "'";
-          },
-          ""};
+  return numberWith([](double value) { return value >= 0.0; }, "that is not negative");
 }
 
 }  // namespace endovascular_sim::tools

@@ -35,16 +35,10 @@ struct WordTopic
 
 constexpr WordTopic kWordTopics[] = {{names::kHold, "hold"}, {names::kFree, "free"}};
 
-/** Values that a kind of command uses. */
-inline const std::vector<double>& valuesOf(const sensor_msgs::JointState& message, drive::CommandKind kind)
-{
-  if (kind == drive::CommandKind::kServoVelocity)
-    return message.velocity;
-  return kind == drive::CommandKind::kServoForce ? message.effort : message.position;
-}
-
-/** The same, to fill. */
-inline std::vector<double>& valuesOf(sensor_msgs::JointState& message, drive::CommandKind kind)
+/** Values that a kind of command uses.
+ *  @param message sensor_msgs::JointState, constant or to fill */
+template <typename JointState>
+auto& valuesOf(JointState& message, drive::CommandKind kind)
 {
   if (kind == drive::CommandKind::kServoVelocity)
     return message.velocity;

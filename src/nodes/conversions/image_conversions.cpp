@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "fluoroscopy/gantry/view.h"
+#include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/message_checks.h"
 #include "nodes/runtime/ros_names.h"
 
@@ -49,11 +50,6 @@ sensor_msgs::CameraInfo cameraInfo(const std_msgs::Header& header, int pixels, c
 }
 
 }  // namespace
-
-Eigen::Vector3d toEigen(const geometry_msgs::Point& point)
-{
-  return {point.x, point.y, point.z};
-}
 
 sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint8_t>& grey)
 {
@@ -125,7 +121,7 @@ fluoroscopy::CArmPose toPose(const CArm& message, const fluoroscopy::CArmPose& p
   pose.detector_width = given(message.detector_width, present.detector_width);
   pose.field_width = given(message.field_width, present.field_width);
   pose.field_height = given(message.field_height, present.field_height);
-  const Eigen::Vector3d isocentre = toEigen(message.isocentre);
+  const Eigen::Vector3d isocentre = fromMessage(message.isocentre);
   if (!by_view || !isocentre.isZero(0.0))
     pose.isocentre = isocentre;
   if (!by_view)
@@ -162,7 +158,7 @@ std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
   std::vector<Eigen::Vector3d> nodes;
   nodes.reserve(state.nodes.size());
   for (const geometry_msgs::Point& node : state.nodes)
-    nodes.push_back(toEigen(node));
+    nodes.push_back(fromMessage(node));
   const double furthest = *std::max_element(state.insertion.begin(), state.insertion.end());
   std::vector<double> behind;
   for (const double insertion : state.insertion)

@@ -17,8 +17,6 @@
 namespace endovascular_sim::nodes
 {
 
-Eigen::Vector3d toEigen(const geometry_msgs::Point& point);
-
 /** A square mono8 image. */
 sensor_msgs::Image toImage(const std_msgs::Header& header, int pixels, const std::vector<std::uint8_t>& grey);
 

@@ -7,6 +7,7 @@
 #include <ros/package.h>
 
 #include "common/error.h"
+#include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/image_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
@@ -138,7 +139,7 @@ void FluoroscopyNode::receiveRod(const RodStateVisual& message)
       {
         std::vector<Eigen::Vector3d> nodes;
         for (const geometry_msgs::Point& node : message.nodes)
-          nodes.push_back(toEigen(node));
+          nodes.push_back(fromMessage(node));
         room_.setWires(toXRayWires(message, room_.system().instruments(), room_.system().fluids()), nodes);
       });
 }
@@ -153,7 +154,7 @@ void FluoroscopyNode::receiveCommand(const CArm& message)
   processInput(
       [&]
       {
-        const bool names_isocentre = message.view.empty() || !toEigen(message.isocentre).isZero(0.0);
+        const bool names_isocentre = message.view.empty() || !fromMessage(message.isocentre).isZero(0.0);
         room_.moveTo(toPose(message, room_.gantry().target()), names_isocentre);
       });
 }

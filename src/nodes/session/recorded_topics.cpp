@@ -132,6 +132,23 @@ void RecordedTopics::measure(const std::string& topic, std::uint32_t queue)
                   });
 }
 
+template <typename Message>
+void RecordedTopics::recordJoints(const char* topic, const Message& message, ros::Time time)
+{
+  const std::size_t hands = std::min({scene_.instruments.size(), message.insertion.size(), message.rotation.size(),
+                                      message.pressure.size(), message.hand_force.size(), message.hand_torque.size()});
+  for (std::size_t k = 0; k < hands; ++k)
+  {
+    const instrument::Instrument& instrument = scene_.instruments[k].instrument;
+    const auto joints = boost::make_shared<sensor_msgs::JointState>();
+    joints->header.stamp = message.header.stamp;
+    joints->header.frame_id = names::kIntroducerFrame;
+    toMessage(instrument.balloon.has_value(), {message.insertion[k], message.rotation[k], message.pressure[k]},
+              message.hand_force[k], message.hand_torque[k], *joints);
+    recording_->bag.write(node_.resolveName(names::kInstruments + instrument.name + topic), time, joints);
+  }
+}
+
 void RecordedTopics::subscribeToWire()
 {
   listen<SessionSteps>(names::kSessionSteps, kStepQueue, [this](const auto& event) { onSteps(event); });
@@ -209,41 +226,8 @@ void RecordedTopics::recordStep(const DriveAppliedConstPtr& step, ros::Time time
   recording_->results.add(*step);
   last_step_ = ros::SteadyTime::now();
   recording_->bag.write(node_.resolveName(names::kDriveApplied), time, step);
-  recordSetpoints(*step, time);
-}
-
-/** Records setpoint_js of all instruments, derived from drive/applied: rod_dynamics then need not publish it at the
- * step rate. */
-void RecordedTopics::recordSetpoints(const DriveApplied& drive, ros::Time time)
-{
-  const std::size_t hands = std::min({scene_.instruments.size(), drive.insertion.size(), drive.rotation.size(),
-                                      drive.pressure.size(), drive.hand_force.size(), drive.hand_torque.size()});
-  if (!recording_->joints.passes(static_cast<double>(drive.step) * scene_.solver.time_step))
-    return;
-  for (std::size_t k = 0; k < hands; ++k)
-    recordJoints(k, names::kSetpointJs, {drive.insertion[k], drive.rotation[k], drive.pressure[k]}, drive.hand_force[k],
-                 drive.hand_torque[k], drive.header.stamp, time);
-}
-
-/** Records measured_js of all instruments, derived from rod/state_visual. */
-void RecordedTopics::recordMeasurements(const RodStateVisual& rod, ros::Time time)
-{
-  const std::size_t hands = std::min({scene_.instruments.size(), rod.insertion.size(), rod.rotation.size(),
-                                      rod.pressure.size(), rod.hand_force.size(), rod.hand_torque.size()});
-  for (std::size_t k = 0; k < hands; ++k)
-    recordJoints(k, names::kMeasuredJs, {rod.insertion[k], rod.rotation[k], rod.pressure[k]}, rod.hand_force[k],
-                 rod.hand_torque[k], rod.header.stamp, time);
-}
-
-void RecordedTopics::recordJoints(std::size_t k, const char* topic, const JointValues& values, double force,
-                                  double torque, ros::Time stamp, ros::Time time)
-{
-  const instrument::Instrument& instrument = scene_.instruments[k].instrument;
-  const auto joints = boost::make_shared<sensor_msgs::JointState>();
-  joints->header.stamp = stamp;
-  joints->header.frame_id = names::kIntroducerFrame;
-  toMessage(instrument.balloon.has_value(), values, force, torque, *joints);
-  recording_->bag.write(node_.resolveName(names::kInstruments + instrument.name + topic), time, joints);
+  if (recording_->joints.passes(static_cast<double>(step->step) * scene_.solver.time_step))
+    recordJoints(names::kSetpointJs, *step, time);
 }
 
 void RecordedTopics::onRod(const ros::MessageEvent<RodStateVisual const>& event)
@@ -256,7 +240,7 @@ void RecordedTopics::onRod(const ros::MessageEvent<RodStateVisual const>& event)
   recording_->results.add(rod);
   if (recording_->error.empty())
     recording_->error = recording_->results.trajectoryError();
-  recordMeasurements(rod, event.getReceiptTime());
+  recordJoints(names::kMeasuredJs, rod, event.getReceiptTime());
   if (recording_->pose.passes(rod.time))
     recording_->bag.write(node_.resolveName(names::kRodStateVisual), event);
 }

@@ -80,10 +80,11 @@ private:
   void onSteps(const ros::MessageEvent<SessionSteps const>& event);
   void recordStep(const DriveAppliedConstPtr& step, ros::Time time);
   void onRod(const ros::MessageEvent<RodStateVisual const>& event);
-  void recordSetpoints(const DriveApplied& drive, ros::Time time);
-  void recordMeasurements(const RodStateVisual& rod, ros::Time time);
-  void recordJoints(std::size_t k, const char* topic, const JointValues& values, double force, double torque,
-                    ros::Time stamp, ros::Time time);
+  /** Records joints of all instruments on a topic of theirs.
+   *  @param message DriveApplied for setpoint_js, which rod_dynamics then need not publish at the step rate;
+   *         RodStateVisual for measured_js */
+  template <typename Message>
+  void recordJoints(const char* topic, const Message& message, ros::Time time);
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& event);
