@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -220,40 +221,51 @@ TEST(AnatomyCache, ToleratesAReadOnlyFolder)
   EXPECT_NE(vessel.notes[1].find("could not be cached"), std::string::npos);
 }
 
-/** Plain anatomy, generated once for all tests. */
-class PlainAnatomy : public testing::Test
+/** Anatomy of the package with its vessel. */
+struct Generated
 {
-protected:
-  static void SetUpTestSuite()
-  {
-    anatomy_ = new Anatomy(readAnatomy(kPlain));
-    vessel_ = new Vessel(loadAnatomy(kPlain, ""));
-  }
-  static void TearDownTestSuite()
-  {
-    delete anatomy_;
-    delete vessel_;
-  }
-  static Anatomy* anatomy_;
-  static Vessel* vessel_;
+  Anatomy anatomy;
+  Vessel vessel;
 };
 
-Anatomy* PlainAnatomy::anatomy_ = nullptr;
-Vessel* PlainAnatomy::vessel_ = nullptr;
-
-TEST_F(PlainAnatomy, IsOneWatertightSurfaceOfModestSize)
+/** Generates an anatomy once for all tests. */
+const Generated& generated(const std::string& file)
 {
-  const MeshReport report = checkMesh(vessel_->mesh);
+  static std::map<std::string, Generated> all;
+  const auto [entry, is_new] = all.try_emplace(file);
+  if (is_new)
+    entry->second = {readAnatomy(file), loadAnatomy(file, "")};
+  return entry->second;
+}
+
+class PackageAnatomy : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(PackageAnatomy, IsOneWatertightSurfaceOfModestSize)
+{
+  const Vessel& vessel = generated(GetParam()).vessel;
+  const MeshReport report = checkMesh(vessel.mesh);
   EXPECT_EQ(report.summary(), "");
   EXPECT_EQ(report.genus, 0);
   EXPECT_GT(report.signed_volume, 1e-4);
-  EXPECT_LT(vessel_->mesh.triangles.size(), 120000U);
+  EXPECT_LT(vessel.mesh.triangles.size(), 120000U);
+  EXPECT_TRUE(vessel.warnings.empty());
 }
 
-TEST_F(PlainAnatomy, HasTheDiametersOfItsFile)
+TEST_P(PackageAnatomy, HasTheDiametersOfItsFile)
 {
-  EXPECT_GT(compareDiameters(*anatomy_, *vessel_, 0.05), 500);
+  EXPECT_GT(compareDiameters(generated(GetParam()).anatomy, generated(GetParam()).vessel, 0.05), 500);
 }
+
+INSTANTIATE_TEST_SUITE_P(AnatomyMesh, PackageAnatomy, testing::Values(kPlain, kNatural));
+
+class PlainAnatomy : public testing::Test
+{
+protected:
+  const Anatomy* anatomy_ = &generated(kPlain).anatomy;
+  const Vessel* vessel_ = &generated(kPlain).vessel;
+};
 
 TEST_F(PlainAnatomy, NarrowsTheLeftAnteriorDescending)
 {
@@ -324,21 +336,10 @@ TEST_F(PlainAnatomy, HasTheMeshOfEarlierVersions)
   EXPECT_EQ(vessel_->mesh.hash(), 0x066b9f41686ceb64U);
 }
 
-/** Natural anatomy, generated once for all tests. */
 class NaturalAnatomy : public testing::Test
 {
 protected:
-  static void SetUpTestSuite()
-  {
-    anatomy_ = new Anatomy(readAnatomy(kNatural));
-    vessel_ = new Vessel(loadAnatomy(kNatural, ""));
-  }
-  static void TearDownTestSuite()
-  {
-    delete anatomy_;
-    delete vessel_;
-  }
-  static const CentrelineBranch& branch(const std::string& name)
+  const CentrelineBranch& branch(const std::string& name) const
   {
     for (const CentrelineBranch& b : vessel_->centreline.branches)
       if (b.name == name)
@@ -346,7 +347,7 @@ protected:
     throw std::runtime_error("no branch " + name);
   }
   /** Direction over the first 8 mm of a branch. */
-  static Eigen::Vector3d direction(const std::string& name)
+  Eigen::Vector3d direction(const std::string& name) const
   {
     const CentrelineBranch& b = branch(name);
     std::size_t k = 0;
@@ -358,27 +359,8 @@ protected:
   {
     return std::acos(std::clamp(u.dot(v), -1.0, 1.0)) * 180.0 / M_PI;
   }
-  static Anatomy* anatomy_;
-  static Vessel* vessel_;
+  const Vessel* vessel_ = &generated(kNatural).vessel;
 };
-
-Anatomy* NaturalAnatomy::anatomy_ = nullptr;
-Vessel* NaturalAnatomy::vessel_ = nullptr;
-
-TEST_F(NaturalAnatomy, IsOneWatertightSurfaceOfModestSize)
-{
-  const MeshReport report = checkMesh(vessel_->mesh);
-  EXPECT_EQ(report.summary(), "");
-  EXPECT_EQ(report.genus, 0);
-  EXPECT_GT(report.signed_volume, 1e-4);
-  EXPECT_LT(vessel_->mesh.triangles.size(), 120000U);
-  EXPECT_TRUE(vessel_->warnings.empty());
-}
-
-TEST_F(NaturalAnatomy, HasTheDiametersOfItsFile)
-{
-  EXPECT_GT(compareDiameters(*anatomy_, *vessel_, 0.05), 500);
-}
 
 TEST_F(NaturalAnatomy, HasTheBranchesOfThePlainAnatomyInTheSamePlaces)
 {
