@@ -13,8 +13,6 @@ import io
 import os
 import random
 import shutil
-import signal
-import socket
 import struct
 import subprocess
 import sys
@@ -22,6 +20,8 @@ import tempfile
 import threading
 import time
 import xmlrpc.client
+
+from running_graph import RunningGraph
 
 HANG = 20.0  # time without diagnostics of a node that counts as a hang [s of its processor time]
 PATIENCE = 180.0  # the same where the machine is busy with something else [s]
@@ -201,35 +201,15 @@ class Topic:
         self.publisher.publish(message)
 
 
-class Graph:
+class Graph(RunningGraph):
     """A running graph, and the last diagnostics of its nodes."""
 
     def __init__(self, repository, folder, scene, arguments):
-        self.folder = folder
-        with socket.socket() as free:
-            free.bind(("localhost", 0))
-            port = free.getsockname()[1]
-        self.uri = "http://localhost:%d" % port
-        os.environ.update(ROS_MASTER_URI=self.uri, ROS_HOME=folder + "/ros", ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
-        self.log = folder + "/launch.log"
-        self.launch = subprocess.Popen(
-            ["roslaunch", "-p", str(port), repository + "/launch/sim.launch", "scene:=%s/%s" % (repository, scene),
-             "results:=" + folder + "/results", "stop_at_duration:=true",
-             *[argument.format(folder=folder) for argument in arguments]],
-            stdout=open(self.log, "w"), stderr=subprocess.STDOUT, start_new_session=True,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        super().__init__(repository, folder, scene, "stop_at_duration:=true",
+                         *[argument.format(folder=folder) for argument in arguments])
+        os.environ.update(self.environment)
         self.heard = {}
         self.lock = threading.Lock()
-
-    def text(self):
-        return open(self.log, errors="replace").read()
-
-    def wait(self, seconds, condition, name):
-        end = time.monotonic() + seconds
-        while not condition():
-            assert self.launch.poll() is None, "the graph has ended\n" + self.text()[-4000:]
-            assert time.monotonic() < end, "%s: not within %g s\n%s" % (name, seconds, self.text()[-4000:])
-            time.sleep(0.1)
 
     def hear(self, message):
         with self.lock:
@@ -256,14 +236,6 @@ class Graph:
         kinds = dict(master.getTopicTypes("/fuzz")[2])
         return {name: kinds[name] for name, nodes in subscriptions
                 if any(not node.startswith(NOT_OURS + ("/fuzz",)) for node in nodes) and kinds.get(name, "*") != "*"}
-
-    def end(self):
-        self.launch.send_signal(signal.SIGINT)
-        try:
-            self.launch.wait(timeout=120)
-        except subprocess.TimeoutExpired:
-            os.killpg(self.launch.pid, signal.SIGKILL)
-            raise AssertionError("the graph does not end\n" + self.text()[-4000:])
 
 
 def processor_time(pid):
@@ -297,10 +269,8 @@ def examine(graph, pids, talkers, last):
 def fuzz(repository, folder, scene, arguments, messages, seed):
     import rospy
     from diagnostic_msgs.msg import DiagnosticArray
-    os.makedirs(folder)
-    graph = Graph(repository, folder, scene, arguments)
-    try:
-        graph.wait(START, lambda: ": running" in graph.text(), "start of " + scene)
+    with Graph(repository, folder, scene, arguments) as graph:
+        graph.wait(START, graph.is_running, "start of " + scene)
         rospy.init_node("fuzz", disable_signals=True, disable_rostime=True)
         rospy.Subscriber("/diagnostics", DiagnosticArray, graph.hear, queue_size=100)
         time.sleep(RECORDED)
@@ -326,10 +296,8 @@ def fuzz(repository, folder, scene, arguments, messages, seed):
         examine(graph, pids, talkers, last)
         assert graph.pids() == pids, "nodes were restarted: %s, %s\n%s" % (pids, graph.pids(), graph.text()[-4000:])
         print("%s: %d mutated messages, no node ended" % (scene, messages), flush=True)
-    finally:
-        graph.end()
-        ignored = graph.text().count("an invalid message on")
-        print("%s: %d topics on which nodes reported invalid messages" % (scene, ignored), flush=True)
+    ignored = graph.text().count("an invalid message on")
+    print("%s: %d topics on which nodes reported invalid messages" % (scene, ignored), flush=True)
     assert os.path.exists(folder + "/results/report.json"), "no report\n" + graph.text()[-4000:]
     assert ignored > 0, "no node reported an invalid message"
 

@@ -6,9 +6,11 @@ set -eu
 . "$repository/test/scripts/graph_environment.sh"
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
-import glob, os, re, signal, socket, subprocess, sys, time
+import glob, os, re, subprocess, sys, time
 import xmlrpc.client
 folder, repository = sys.argv[1:]
+sys.path.insert(0, repository + "/test/scripts")
+from running_graph import RunningGraph
 OTHERS = {"rosout", "rosout_agg", "tf", "tf_static", "diagnostics", "clock"}  # of ROS; /diagnostics is in the table too
 ONLY_IN_RECORDINGS = {"session/end"}
 FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy|robot|sensors)"
@@ -77,38 +79,23 @@ def echo(uri):
 
 def running(scene, arguments, extra):
     """Topics and services of a running graph, as the master lists them."""
-    with socket.socket() as free:
-        free.bind(("localhost", 0))
-        port = free.getsockname()[1]
-    uri = "http://localhost:%d" % port
     name = os.path.splitext(os.path.basename(scene))[0]
-    log = open("%s/%s.log" % (folder, name), "w")
-    environment = dict(os.environ, ROS_MASTER_URI=uri, ROS_HOME="%s/ros_%s" % (folder, name),
-                       ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
-    launch = subprocess.Popen(
-        ["roslaunch", "-p", str(port), repository + "/launch/sim.launch", "scene:=%s/%s" % (repository, scene),
-         "results:=%s/%s" % (folder, name), *arguments],
-        env=environment, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     names = set()
-    try:
+    with RunningGraph(repository, folder + "/" + name, scene, *arguments) as graph:
         end = time.monotonic() + 180
         while True:  # until the last node has advertised its topics, and two readings are equal
             time.sleep(1.0)
-            assert time.monotonic() < end and launch.poll() is None, open(log.name).read()[-5000:]
+            assert time.monotonic() < end and graph.launch.poll() is None, graph.text()[-5000:]
             try:
-                publishers, subscribers, services = xmlrpc.client.ServerProxy(uri).getSystemState("/test")[2]
+                publishers, subscribers, services = xmlrpc.client.ServerProxy(graph.uri).getSystemState("/test")[2]
             except OSError:
                 continue
             now = {general(name) for name, _ in publishers + subscribers}
             now |= {general(name) for name, _ in services if not re.search(r"/(get_loggers|set_logger_level)$", name)}
-            if now == names and extra <= now and ": running" in open(log.name).read():
-                echo(uri)
+            if now == names and extra <= now and graph.is_running():
+                echo(graph.uri)
                 return names
             names = now
-    finally:
-        launch.send_signal(signal.SIGINT)
-        launch.wait(timeout=90)
 
 
 # A scene with every kind of topic except those of the haptic device and the robot, and a scene with each of the two.

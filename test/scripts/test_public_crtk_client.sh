@@ -15,22 +15,13 @@ examples=${client:-/nonexistent}/scripts
 [ -d "$examples" ] || { echo "skipped: the examples of crtk_python_client are not there; set CRTK_PYTHON_CLIENT to a clone of it"; exit 77; }
 
 ROS_VERSION=1 /usr/bin/python3 - "$folder" "$repository" "$examples" <<'PYTHON'
-import os, signal, socket, subprocess, sys, threading, time
+import os, subprocess, sys, time
 folder, repository, examples = sys.argv[1:]
-with socket.socket() as free:
-    free.bind(("localhost", 0))
-    port = free.getsockname()[1]
-os.environ.update(ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=folder + "/ros",
-                  ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
-log = folder + "/launch.log"
-launch = subprocess.Popen(["roslaunch", "-p", str(port), repository + "/launch/sim.launch", "visualization:=false",
-                           "scene:=%s/test/data/wire_of_a_robot.yaml" % repository, "results:=" + folder + "/results"],
-                          stdout=open(log, "w"), stderr=subprocess.STDOUT, start_new_session=True,
-                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-try:
-    while ": running" not in open(log).read():
-        assert launch.poll() is None, open(log).read()[-3000:]
-        time.sleep(0.2)
+sys.path.insert(0, repository + "/test/scripts")
+from running_graph import RunningGraph
+with RunningGraph(repository, folder, "test/data/wire_of_a_robot.yaml", "visualization:=false") as graph:
+    graph.wait(300, graph.is_running, "start")
+    os.environ.update(graph.environment)
     import rospy
     from crtk_msgs.msg import StringStamped
     rospy.init_node("test", disable_signals=True)
@@ -67,7 +58,7 @@ try:
     wire.move_jp(goal)
     end = time.monotonic() + 60
     while wire.setpoint_jp()[0][0] < begin[0] + 0.005:
-        assert time.monotonic() < end, "no motion from %s to %s: %s\n%s" % (begin, goal, reasons, open(log).read()[-2000:])
+        assert time.monotonic() < end, "no motion from %s to %s: %s\n%s" % (begin, goal, reasons, graph.text()[-2000:])
         time.sleep(0.01)
     wire.hold()
     time.sleep(1.0)
@@ -77,7 +68,4 @@ try:
     wire.free()
     time.sleep(1.0)
     assert wire.operating_state() == "ENABLED"
-finally:
-    launch.send_signal(signal.SIGINT)
-    launch.wait(timeout=120)
 PYTHON

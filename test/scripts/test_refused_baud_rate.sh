@@ -5,36 +5,22 @@ set -eu
 . "$repository/test/scripts/graph_environment.sh"
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
-import os, pty, signal, socket, subprocess, sys, time
+import os, pty, sys, time
 folder, repository = sys.argv[1:]
+sys.path.insert(0, repository + "/test/scripts")
+from running_graph import RunningGraph
 
 
 def run(name, baud, scene, wanted):
     """Log of the node haptic_device, until the wanted text and five further seconds, in which a restart would show."""
-    with socket.socket() as free:
-        free.bind(("localhost", 0))
-        port = free.getsockname()[1]
     master, slave = pty.openpty()
-    log = "%s/%s.log" % (folder, name)
     nodes = ["%s:=false" % node for node in ("vessel_server", "contact", "rod_dynamics", "fluoroscopy", "session", "visualization")]
-    launch = subprocess.Popen(
-        ["roslaunch", "-p", str(port), repository + "/launch/sim.launch", "scene:=%s/%s" % (repository, scene), *nodes,
-         "device:=" + os.ttyname(slave), "baud:=%d" % baud],
-        env=dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=folder + "/ros_" + name,
-                 ROSCONSOLE_STDOUT_LINE_BUFFERED="1"),
-        stdout=open(log, "w"), stderr=subprocess.STDOUT, start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-    try:
-        while wanted not in open(log).read():
-            assert launch.poll() is None, open(log).read()[-3000:]
-            time.sleep(0.1)
+    with RunningGraph(repository, folder + "/" + name, scene, *nodes, "device:=" + os.ttyname(slave), "baud:=%d" % baud) as graph:
+        graph.wait(300, lambda: wanted in graph.text(), wanted)
         time.sleep(5)
-    finally:
-        launch.send_signal(signal.SIGINT)
-        launch.wait(timeout=120)
-        os.close(slave)
-        os.close(master)
-    text = open(log).read()
+    os.close(slave)
+    os.close(master)
+    text = graph.text()
     assert text.count("process[haptic_device") == 1 and "has died" not in text.split("shutting down")[0], text
     return text
 
