@@ -110,8 +110,8 @@ TEST(DeviceSimulator, DoesNotReplaceAFileThatIsNotALink)
 TEST(MotionScript, InterpolatesAndHolds)
 {
   const test::TemporaryFolder folder;
-  const MotionScript script = MotionScript::load(
-      folder.write("script.csv", "time,insertion,rotation\n# a comment\n1, 0.1, 1\n\n3, 0.3, -1\n"));
+  const MotionScript script =
+      MotionScript::load(folder.write("script.csv", "time,insertion,rotation\n# a comment\n1, 0.1, 1\n\n3, 0.3, -1\n"));
   EXPECT_EQ(script.at(0.0).insertion, 0.1);
   EXPECT_DOUBLE_EQ(script.at(2.0).insertion, 0.2);
   EXPECT_DOUBLE_EQ(script.at(2.0).rotation, 0.0);
