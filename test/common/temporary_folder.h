@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace endovascular_sim::test
+namespace endovascular_sim
 {
 
 /** Content of a file; empty if it is missing. */
@@ -53,4 +53,4 @@ private:
   std::filesystem::path path_;
 };
 
-}  // namespace endovascular_sim::test
+}  // namespace endovascular_sim

@@ -18,7 +18,7 @@ namespace
 class FilesInAFolder : public testing::Test
 {
 protected:
-  const test::TemporaryFolder temporary_;
+  const TemporaryFolder temporary_;
   const std::filesystem::path& folder_ = temporary_.path();
   const std::string file_ = temporary_.write("file", "text");
 };

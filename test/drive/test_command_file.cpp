@@ -27,7 +27,7 @@ protected:
     return inputErrorOf([&] { read(text); });
   }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   const std::string path_ = folder_.file("commands");
 };
 

@@ -39,9 +39,9 @@ protected:
     return inputErrorOf([&] { readVolume(folder_.write("head.vol", content)); });
   }
 
-  std::string content() const { return test::contentOf(file_); }
+  std::string content() const { return contentOf(file_); }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::string file_ = folder_.file("head.vol");
 };
 

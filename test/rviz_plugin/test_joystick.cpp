@@ -41,7 +41,7 @@ protected:
     device = -1;
   }
 
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const std::string path = folder.file("js0");
   int device = -1;
 };

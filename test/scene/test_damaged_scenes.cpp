@@ -60,7 +60,7 @@ TEST(DamagedScene, IsReadConsistentlyOrRejected)
   for (int k = 0; k < kMutations; ++k)
   {
     const std::string& file = files[static_cast<std::size_t>(k) % files.size()];
-    const std::string damaged = damage.of(test::contentOf(file));
+    const std::string damaged = damage.of(contentOf(file));
     try
     {
       const Scene scene = parseScene(damaged, file);
@@ -99,7 +99,7 @@ TEST(DamagedScene, HoldsEveryChangedNumberOrIsRejected)
     if (text.empty())
       try
       {
-        text = parseScene(test::contentOf(file), file).resolved_yaml;
+        text = parseScene(contentOf(file), file).resolved_yaml;
       }
       catch (const InputError&)
       {

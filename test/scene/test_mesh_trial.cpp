@@ -37,7 +37,7 @@ protected:
     return inputErrorOf([&] { trial_ = tryMesh(mesh_file_, centreline_file_); });
   }
 
-  const test::TemporaryFolder folder_;
+  const TemporaryFolder folder_;
   const std::string mesh_file_ = folder_.file("mesh trial's #1.obj");
   const std::string centreline_file_ = folder_.file("mesh trial's #1.yaml");
   geometry::TriangleMesh mesh_;

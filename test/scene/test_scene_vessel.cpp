@@ -48,7 +48,7 @@ VesselScene forkScene()
 /** Scene of a mesh in metres that is written to a file. */
 VesselScene writtenScene(const geometry::TriangleMesh& mesh, const std::string& comment = "")
 {
-  static const test::TemporaryFolder folder;
+  static const TemporaryFolder folder;
   VesselScene scene;
   scene.mesh = folder.file("written.obj");
   vessel::writeObj(mesh, scene.mesh);

@@ -13,7 +13,7 @@ namespace endovascular_sim::segmentation
 /** Chains of a tree that was written to a file and read as an anatomy. */
 inline std::vector<vessel::AnatomyChain> writtenChains(const vessel::CentrelineTree& tree)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   vessel::writeCentreline(tree, "test", folder.file("tree.yaml"));
   return vessel::sampleChains(vessel::readAnatomy(folder.file("tree.yaml")));
 }

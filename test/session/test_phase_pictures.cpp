@@ -45,7 +45,7 @@ void takePictures(const scene::Scene& scene, const std::string& folder)
 
 TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder.path());
   EXPECT_GT(std::filesystem::file_size(folder.file("fluoroscopy/phase_01.png")), 100U);
   EXPECT_GT(std::filesystem::file_size(folder.file("fluoroscopy/phase_02.png")), 100U);
@@ -54,11 +54,11 @@ TEST(PhasePictures, AreWrittenAtTheEndOfEachPhase)
 
 TEST(PhasePictures, HaveTheViewOfTheirPhase)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   takePictures(twoPhases("fluoroscopy: {pixels: 64}\n"), folder.file("ap"));
   takePictures(twoPhases("fluoroscopy: {pixels: 64}\n", ", view: LAO 40 CRA 30"), folder.file("views"));
   takePictures(twoPhases("fluoroscopy: {pixels: 64, view: LAO 40 CRA 30}\n"), folder.file("oblique"));
-  const auto picture = [&folder](const std::string& name) { return test::contentOf(folder.path() / name); };
+  const auto picture = [&folder](const std::string& name) { return contentOf(folder.path() / name); };
   EXPECT_EQ(picture("views/fluoroscopy/phase_01.png"), picture("ap/fluoroscopy/phase_01.png"));
   EXPECT_NE(picture("views/fluoroscopy/phase_02.png"), picture("ap/fluoroscopy/phase_02.png"));
   EXPECT_NE(picture("oblique/fluoroscopy/phase_01.png"), picture("ap/fluoroscopy/phase_01.png"));

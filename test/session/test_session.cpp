@@ -545,7 +545,7 @@ TEST(Session, RefusesAnImageOfASceneWithoutFluoroscopy)
 
 TEST(Session, WritesItsResults)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   SessionSettings settings;
   settings.results = true;
   Session session(tubeWithOperator(), settings);
@@ -556,7 +556,7 @@ TEST(Session, WritesItsResults)
   for (const char* file : {"result.json", "scene.yaml", "wall_forces.csv", "vessel_points.csv", "metrics.json",
                            "metrics.html", "instruments.csv"})
     EXPECT_GT(std::filesystem::file_size(folder.path() / file), 0U) << file;
-  EXPECT_EQ(test::contentOf(folder.file("result.json")), session.record().resultJson());
+  EXPECT_EQ(contentOf(folder.file("result.json")), session.record().resultJson());
   EXPECT_EQ(session.record().metrics()->steps().size(), 2U);
 }
 

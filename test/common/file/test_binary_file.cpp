@@ -21,7 +21,7 @@ protected:
   std::string file() const { return folder_.file("entry"); }
 
   const std::vector<std::uint16_t> values_ = {1, 2, 65535};
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(CacheFile, HoldsItsPartsUnderTheKey)

@@ -49,7 +49,7 @@ struct SimulatorBench
   }
 
   double now = 10.0;
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   std::string link_path = folder.file("device");
   std::optional<DeviceSimulator> simulator;
   std::optional<HapticLink> link;
@@ -100,7 +100,7 @@ TEST(DeviceSimulator, RestartsItsCountAfterAReplugWithoutAJumpOfTheCommand)
 
 TEST(DeviceSimulator, DoesNotReplaceAFileThatIsNotALink)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("file", "content");
   Pty pty;
   EXPECT_THROW(pty.plug(path), InputError);
@@ -109,7 +109,7 @@ TEST(DeviceSimulator, DoesNotReplaceAFileThatIsNotALink)
 
 TEST(MotionScript, InterpolatesAndHolds)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const MotionScript script =
       MotionScript::load(folder.write("script.csv", "time,insertion,rotation\n# a comment\n1, 0.1, 1\n\n3, 0.3, -1\n"));
   EXPECT_EQ(script.at(0.0).insertion, 0.1);
@@ -121,7 +121,7 @@ TEST(MotionScript, InterpolatesAndHolds)
 
 TEST(MotionScript, RejectsInvalidRowsWithTheirLineNumber)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const char* text : {"1,2\n", "1,2,3,4\n", "1,0,0\n1,0,0\n", "1,nan,0\n", "", "1,x,0\n"})
     EXPECT_THROW(MotionScript::load(folder.write("bad.csv", text)), InputError) << text;
   EXPECT_THROW(MotionScript::load(folder.file("missing.csv")), InputError);

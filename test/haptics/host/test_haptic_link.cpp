@@ -67,7 +67,7 @@ public:
   std::optional<RosserialDevice> device;
 
 private:
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   int master_ = -1;
 };
 
@@ -201,7 +201,7 @@ TEST(SerialPort, OpensAtAnySpeedSuchAs250000OfArduino)
 {
   EXPECT_NO_THROW(SerialPort::checkBaud(250000, "baud"));
   Pty pty;
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string link = folder.file("device");
   pty.plug(link);
   SerialPort port;

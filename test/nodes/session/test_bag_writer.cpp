@@ -26,7 +26,7 @@ boost::shared_ptr<geometry_msgs::PointStamped> pointAt(double time)
 
 TEST(BagWriter, WritesFewMessagesBeforeItIsClosed)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   BagWriter writer(folder.file("few.bag"));
   writer.write("/point", ros::Time(1.0), pointAt(1.0));
   for (int k = 0; k < 500 && writer.messages() == 0; ++k)
@@ -37,7 +37,7 @@ TEST(BagWriter, WritesFewMessagesBeforeItIsClosed)
 
 TEST(BagWriter, RetainsOrderAndTimesOfAllMessages)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.file("many.bag");
   {
     BagWriter writer(file);

@@ -35,7 +35,7 @@ protected:
   std::string recorded()
   {
     trajectory_hash_ = fuzz::writeSmallSession(file_, GetParam());
-    return test::contentOf(file_);
+    return contentOf(file_);
   }
 
   /** Replays a bag with the given content. */
@@ -61,7 +61,7 @@ protected:
   }
 
 private:
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   const std::string file_ = folder_.file("damaged.bag");
   std::uint64_t trajectory_hash_ = 0;  ///< of the recorded session
 };

@@ -74,7 +74,7 @@ protected:
     return inputErrorOf([&] { readSessionBag(file_); });
   }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   const std::string file_ = folder_.file("session.bag");
   SessionInfo info_;
 };

@@ -132,7 +132,7 @@ TEST(BodyModel, EqualInputsGiveEqualBytesAndTheSeedChangesThem)
 
 TEST(BodyModel, IsTakenFromTheCacheWhichADamagedEntryDoesNotStop)
 {
-  const test::TemporaryFolder temporary;
+  const TemporaryFolder temporary;
   const std::string folder = temporary.path();
   vessel::Vessel none;
   const PatientVolume made = loadBody(none, {8e-3, 1}, folder);

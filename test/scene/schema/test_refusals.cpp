@@ -36,7 +36,7 @@ bool contains(const std::string& text, const std::string& part)
 
 TEST(SceneRefusals, ReportFileKeyLineAndRemedy)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const yaml::Node data = yaml::readTree(TEST_DATA_DIR "/refused_scenes.yaml");
   const yaml::Node& refusals = *data.find("refusals");
   EXPECT_GE(refusals.fields.size(), 96U);

@@ -22,7 +22,7 @@ protected:
   }
 
 private:
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 const char* const kYaml = R"(frame: RAS

@@ -50,7 +50,7 @@ TEST_P(RejectedAnatomy, ReportsFileKeyAndRemedy)
   const std::size_t at = text.find(GetParam().from);
   ASSERT_NE(at, std::string::npos);
   text.replace(at, std::string(GetParam().from).size(), GetParam().to);
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("anatomy.yaml", text);
   const std::string reason = inputErrorOf([&] { sampleChains(readAnatomy(file)); });
   EXPECT_EQ(reason.find(file), 0U) << reason;
@@ -159,7 +159,7 @@ TEST(AnatomyFile, TakesFacetsOfABranchAndTheBlendingOfABulge)
   { return text.replace(text.find(from), from.size(), to); };
   std::string text = replaced(forkText(), "    parent: trunk\n", "    parent: trunk\n    facets_around: 12\n");
   text = replaced(text, "    radius: 4\n", "    radius: 4\n    blend: 0.3\n");
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const Anatomy anatomy = readAnatomy(folder.write("anatomy.yaml", text));
   EXPECT_EQ(anatomy.branches[2].facets_around, 12);
   EXPECT_EQ(anatomy.branches[0].facets_around, 0);

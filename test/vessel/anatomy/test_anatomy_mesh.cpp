@@ -30,7 +30,7 @@ const std::string kFork = std::string(TEST_DATA_DIR) + "/anatomies/fork.yaml";
 const std::string kPlain = std::string(PROJECT_DIR) + "/config/anatomies/plain.yaml";
 const std::string kNatural = std::string(PROJECT_DIR) + "/config/anatomies/natural.yaml";
 
-std::string onlyFileOf(const test::TemporaryFolder& folder)
+std::string onlyFileOf(const TemporaryFolder& folder)
 {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
@@ -176,7 +176,7 @@ TEST(AnatomyMesh, RejectsBranchesThatFormALoop)
 
 TEST(AnatomyCache, ReturnsTheSameMeshAndRebuildsDamagedEntries)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::uint64_t hash = loadAnatomy(kFork, folder.path()).mesh.hash();
   const std::string file = onlyFileOf(folder);
   ASSERT_FALSE(file.empty());
@@ -201,7 +201,7 @@ TEST(AnatomyCache, ReturnsTheSameMeshAndRebuildsDamagedEntries)
 
 TEST(AnatomyCache, ReturnsNothingUnderAnotherKey)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   geometry::TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};

@@ -46,7 +46,7 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
 {
   const std::string small = meshFile(capsule(16, 10), GetParam());
   const std::string large = meshFile(capsule(64, 38), GetParam());
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string name = "damaged" + extensionOf(GetParam());
   test::RandomDamage damage(1, kNumbers, 16);
   int accepted = 0;
@@ -79,7 +79,7 @@ TEST_P(DamagedMesh, IsAcceptedUndamaged)
 {
   const geometry::TriangleMesh mesh = capsule(64, 38);
   ASSERT_LE(mesh.triangles.size(), 5000U);
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const geometry::TriangleMesh read =
       readMesh(folder.write("undamaged" + extensionOf(GetParam()), meshFile(mesh, GetParam())), 1e-3);
   EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(MeshReader, DamagedMesh,
 /** Error of reading a file with this content; empty if it is accepted. */
 std::string errorOf(const std::string& content, const std::string& extension)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   return inputErrorOf([&] { readMesh(folder.write("mesh" + extension, content), 1.0); });
 }
 
@@ -148,7 +148,7 @@ TEST(MeshReader, RejectsStatementsThatAreNotOfTheFormat)
 
 TEST(MeshReader, ReportsItsProgressOnALargeMesh)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   double last = 0.0;
   int reports = 0;
   readMesh(folder.write("large.obj", meshFile(capsule(200, 200), MeshFormat::kObj)), 1e-3,
@@ -167,14 +167,14 @@ TEST(MeshReader, ReportsItsProgressOnALargeMesh)
 
 TEST(MeshReader, KeepsDoublePrecision)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("a.obj", "v 0.1234567890123456 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(readMesh(file, 1.0).vertices[0].x(), 0.1234567890123456);
 }
 
 TEST(MeshReader, TriangulatesAConcavePolygonWithinItsOutline)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("a.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n");
   const geometry::TriangleMesh mesh = readMesh(file, 1.0);
   ASSERT_EQ(mesh.triangles.size(), 3U);

@@ -66,7 +66,7 @@ TEST_P(EverySpace, OfSlicerIsTurnedToThePatientFrame)
   geometry::TriangleMesh ras = lps;
   for (Eigen::Vector3d& v : ras.vertices)
     v.head<2>() *= -1.0;
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto read = [&](const geometry::TriangleMesh& mesh, const std::string& header, MeshRemarks& remarks)
   {
     const std::string file = folder.write("a" + extensionOf(GetParam()), withHeader(mesh, GetParam(), header));
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(MeshReader, EverySpace,
 
 TEST(MeshReader, ReadsAnObjAndAPlyAfterAByteOrderMark)
 {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kAsciiPly})
   {
     const std::string content = "\xEF\xBB\xBF" + meshFile(capsule(16, 10), format);

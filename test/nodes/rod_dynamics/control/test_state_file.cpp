@@ -31,7 +31,7 @@ class StateFileTest : public testing::Test
 protected:
   StateFileTest() { fs::create_directories(folder_ / "states"); }
 
-  const test::TemporaryFolder temporary_;
+  const TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };
 
@@ -49,7 +49,7 @@ TEST_F(StateFileTest, DoesNotReplaceAFileThatIsNoState)
   const fs::path file = folder_ / "thesis.tex";
   write(file, "years of work");
   EXPECT_NE(inputErrorOf([&] { writeStateFile(file, kState); }).find("is no saved state"), std::string::npos);
-  EXPECT_EQ(test::contentOf(file), "years of work");
+  EXPECT_EQ(contentOf(file), "years of work");
   write(file, "");
   EXPECT_NE(inputErrorOf([&] { writeStateFile(file, kState); }), "") << "an empty file";
 }
@@ -59,7 +59,7 @@ TEST_F(StateFileTest, DoesNotFollowALinkAtItsName)
   write(folder_ / "target", kState);
   fs::create_symlink(folder_ / "target", folder_ / "link");
   EXPECT_NE(inputErrorOf([&] { writeStateFile(folder_ / "link", kState + "!"); }), "");
-  EXPECT_EQ(test::contentOf(folder_ / "target"), kState);
+  EXPECT_EQ(contentOf(folder_ / "target"), kState);
 }
 
 TEST_F(StateFileTest, DoesNotWriteThroughALinkAtAForeseeableName)
@@ -67,8 +67,8 @@ TEST_F(StateFileTest, DoesNotWriteThroughALinkAtAForeseeableName)
   write(folder_ / "victim", "precious");
   fs::create_symlink(folder_ / "victim", folder_ / "a.state.part");
   writeStateFile(folder_ / "a.state", kState);
-  EXPECT_EQ(test::contentOf(folder_ / "victim"), "precious");
-  EXPECT_EQ(test::contentOf(folder_ / "a.state"), kState);
+  EXPECT_EQ(contentOf(folder_ / "victim"), "precious");
+  EXPECT_EQ(contentOf(folder_ / "a.state"), kState);
 }
 
 TEST_F(StateFileTest, IsNeitherADeviceNorAPipeNorAFolder)
