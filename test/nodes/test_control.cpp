@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include <crtk_msgs/OperatingState.h>
@@ -16,6 +15,7 @@
 #include "nodes/runtime/scene_parameters.h"
 #include "test/nodes/graph_testing.h"
 #include "test/nodes/simulation_client.h"
+#include "test/nodes/topic_observer.h"
 
 namespace endovascular_sim
 {
@@ -29,54 +29,35 @@ public:
   Listener()
   {
     const std::string wire =
-        nodes::names::kInstruments + nodes::sceneFromParameters(node_).instruments.front().instrument.name;
-    steps_ = node_.subscribe<DriveApplied>(nodes::names::kDriveApplied, 10000,
-                                           [this](const DriveAppliedConstPtr& applied)
-                                           {
-                                             const std::lock_guard<std::mutex> lock(mutex_);
-                                             last_ = *applied;
-                                             ++count_;
-                                           });
-    state_ = node_.subscribe<crtk_msgs::OperatingState>(wire + nodes::names::kOperatingState, 10,
-                                                        [this](const crtk_msgs::OperatingStateConstPtr& state)
-                                                        {
-                                                          const std::lock_guard<std::mutex> lock(mutex_);
-                                                          operating_ = state->state;
-                                                        });
-    reason_ = node_.subscribe<crtk_msgs::StringStamped>(wire + nodes::names::kStateReason, 10,
-                                                        [this](const crtk_msgs::StringStampedConstPtr& reason)
-                                                        {
-                                                          const std::lock_guard<std::mutex> lock(mutex_);
-                                                          text_ = reason->string;
-                                                        });
-    setpoint_ = node_.subscribe<sensor_msgs::JointState>(wire + nodes::names::kSetpointJs, 1,
-                                                         [this](const sensor_msgs::JointStateConstPtr& joints)
-                                                         {
-                                                           const std::lock_guard<std::mutex> lock(mutex_);
-                                                           force_ = joints->effort.at(0);
-                                                         });
+        nodes::names::kInstruments + nodes::sceneFromParameters(ros::NodeHandle()).instruments.front().instrument.name;
+    observer_.subscribe<DriveApplied>(nodes::names::kDriveApplied,
+                                      [this](const DriveApplied& applied)
+                                      {
+                                        last_ = applied;
+                                        ++count_;
+                                      });
+    observer_.subscribe<crtk_msgs::OperatingState>(wire + nodes::names::kOperatingState,
+                                                   [this](const crtk_msgs::OperatingState& state)
+                                                   { operating_ = state.state; });
+    observer_.subscribe<crtk_msgs::StringStamped>(
+        wire + nodes::names::kStateReason, [this](const crtk_msgs::StringStamped& reason) { text_ = reason.string; });
+    observer_.subscribe<sensor_msgs::JointState>(wire + nodes::names::kSetpointJs,
+                                                 [this](const sensor_msgs::JointState& joints)
+                                                 { force_ = joints.effort.at(0); });
   }
 
-  template <typename Value>
-  Value guarded(const Value& value) const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return value;
-  }
-  DriveApplied last() const { return guarded(last_); }
-  std::uint64_t count() const { return guarded(count_); }
-  std::string state() const { return guarded(operating_); }
-  std::string reason() const { return guarded(text_); }
-  double force() const { return guarded(force_); }
+  DriveApplied last() const { return observer_.copy(last_); }
+  std::uint64_t count() const { return observer_.copy(count_); }
+  std::string state() const { return observer_.copy(operating_); }
+  std::string reason() const { return observer_.copy(text_); }
+  double force() const { return observer_.copy(force_); }
 
 private:
-  ros::NodeHandle node_;
-  mutable std::mutex mutex_;
   DriveApplied last_;
   std::uint64_t count_ = 0;
   std::string operating_, text_;
   double force_ = 0.0;
-  ros::Subscriber steps_, state_, reason_, setpoint_;
+  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
 };
 
 class Control : public testing::Test
@@ -190,8 +171,6 @@ TEST_F(Control, F_EveryRunHasARecordingThatReplays)
   replayedHash(folder.parent_path() / "run_4/session.bag");
   EXPECT_TRUE(std::filesystem::exists(folder.parent_path() / "run_4/metrics.json")) << "with the vessel";
 }
-
-const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
 
 }  // namespace
 }  // namespace endovascular_sim

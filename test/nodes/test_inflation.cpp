@@ -1,6 +1,5 @@
 #include <map>
 #include <memory>
-#include <mutex>
 
 #include <crtk_msgs/OperatingState.h>
 #include <gtest/gtest.h>
@@ -16,6 +15,7 @@
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
 #include "test/nodes/graph_testing.h"
+#include "test/nodes/topic_observer.h"
 
 namespace endovascular_sim
 {
@@ -28,50 +28,28 @@ class Listener
 public:
   explicit Listener(const std::string& instrument)
   {
-    applied_ = listen<DriveApplied>(nodes::names::kDriveApplied, 20000,
-                                    [this](const DriveApplied& message) { steps_[message.step] = message; });
-    moved_ =
-        listen<WallDisplacement>(nodes::names::kWallDisplacement, 5000,
-                                 [this](const WallDisplacement& message) { moved_vertices_ += message.index.size(); });
-    mesh_ = listen<VesselMesh>(nodes::names::kVesselMesh, 10,
-                               [this](const VesselMesh& message) { newest_mesh_ = message; });
-    state_ = listen<crtk_msgs::OperatingState>(
-        nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
+    observer_.subscribe<DriveApplied>(nodes::names::kDriveApplied,
+                                      [this](const DriveApplied& message) { steps_[message.step] = message; });
+    observer_.subscribe<WallDisplacement>(nodes::names::kWallDisplacement, [this](const WallDisplacement& message)
+                                          { moved_vertices_ += message.index.size(); });
+    observer_.subscribe<VesselMesh>(nodes::names::kVesselMesh,
+                                    [this](const VesselMesh& message) { newest_mesh_ = message; });
+    observer_.subscribe<crtk_msgs::OperatingState>(
+        nodes::names::kInstruments + instrument + nodes::names::kOperatingState,
         [this](const crtk_msgs::OperatingState& message) { operating_ = message.state; });
   }
 
-  std::map<std::uint64_t, DriveApplied> steps() const { return guarded(steps_); }
-  std::size_t movedVertices() const { return guarded(moved_vertices_); }
-  VesselMesh newestMesh() const { return guarded(newest_mesh_); }
-  std::string operatingState() const { return guarded(operating_); }
+  std::map<std::uint64_t, DriveApplied> steps() const { return observer_.copy(steps_); }
+  std::size_t movedVertices() const { return observer_.copy(moved_vertices_); }
+  VesselMesh newestMesh() const { return observer_.copy(newest_mesh_); }
+  std::string operatingState() const { return observer_.copy(operating_); }
 
 private:
-  template <typename Value>
-  Value guarded(const Value& value) const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return value;
-  }
-
-  template <typename Message, typename Take>
-  ros::Subscriber listen(const std::string& topic, std::uint32_t queue, Take take)
-  {
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-        [this, take](const boost::shared_ptr<const Message>& message)
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      take(*message);
-    };
-    return node_.subscribe<Message>(topic, queue, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
-  }
-
-  ros::NodeHandle node_;
-  mutable std::mutex mutex_;
   std::map<std::uint64_t, DriveApplied> steps_;
   std::size_t moved_vertices_ = 0;
   VesselMesh newest_mesh_;
   std::string operating_;
-  ros::Subscriber applied_, moved_, mesh_, state_;
+  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
 };
 
 class Inflation : public testing::Test
@@ -132,8 +110,6 @@ TEST_F(Inflation, B_LossOfTheVesselServerEndsTheSimulation)
   ASSERT_TRUE(killNode("/vessel_server"));
   EXPECT_TRUE(waitUntil(10.0, [this] { return listener_->operatingState() == "DISABLED"; }));
 }
-
-const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
 
 }  // namespace
 }  // namespace endovascular_sim

@@ -1,7 +1,7 @@
-#include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <crtk_msgs/OperatingState.h>
@@ -19,6 +19,7 @@
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
 #include "test/nodes/graph_testing.h"
+#include "test/nodes/topic_observer.h"
 
 namespace endovascular_sim
 {
@@ -31,89 +32,58 @@ class Listener
 public:
   explicit Listener(const std::string& instrument)
   {
-    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-    applied_ = node_.subscribe<DriveApplied>(
-        nodes::names::kDriveApplied, 20000,
-        [this](const DriveAppliedConstPtr& message)
-        {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          steps_[message->step] = *message;
-          last_step_stamp_ = message->header.stamp.toSec();
-        },
-        ros::VoidConstPtr(), hints);
-    force_map_ = node_.subscribe<ContactForceMap>(
-        nodes::names::kContactForceMap, 100,
-        [this](const ContactForceMapConstPtr& message)
-        {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          newest_map_ = message;
-        },
-        ros::VoidConstPtr(), hints);
-    hand_ = node_.subscribe<sensor_msgs::JointState>(
-        nodes::names::kInstruments + instrument + nodes::names::kSetpointJs, 10,
-        [this](const sensor_msgs::JointStateConstPtr& message)
-        {
-          const double force = message->effort.at(0);
-          const std::lock_guard<std::mutex> lock(mutex_);
-          if (force == 0.0 && force_ != 0.0)
-            zero_force_stamp_ = message->header.stamp.toSec();
-          largest_change_ = std::max(largest_change_, std::abs(force - force_));
-          force_ = force;
-        },
-        ros::VoidConstPtr(), hints);
-    state_ = node_.subscribe<crtk_msgs::OperatingState>(
-        nodes::names::kInstruments + instrument + nodes::names::kOperatingState, 10,
-        [this](const crtk_msgs::OperatingStateConstPtr& message)
-        {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          operating_ = message->state;
-        },
-        ros::VoidConstPtr(), hints);
+    const std::string topics = nodes::names::kInstruments + instrument;
+    observer_.subscribe<DriveApplied>(nodes::names::kDriveApplied,
+                                      [this](const DriveApplied& message)
+                                      {
+                                        steps_[message.step] = message;
+                                        last_step_stamp_ = message.header.stamp.toSec();
+                                      });
+    observer_.subscribe<ContactForceMap>(nodes::names::kContactForceMap,
+                                         [this](const ContactForceMap& message) { newest_map_ = message; });
+    observer_.subscribe<sensor_msgs::JointState>(topics + nodes::names::kSetpointJs,
+                                                 [this](const sensor_msgs::JointState& message)
+                                                 {
+                                                   const double force = message.effort.at(0);
+                                                   if (force == 0.0 && force_ != 0.0)
+                                                     zero_force_stamp_ = message.header.stamp.toSec();
+                                                   largest_change_ =
+                                                       std::max(largest_change_, std::abs(force - force_));
+                                                   force_ = force;
+                                                 });
+    observer_.subscribe<crtk_msgs::OperatingState>(topics + nodes::names::kOperatingState,
+                                                   [this](const crtk_msgs::OperatingState& message)
+                                                   { operating_ = message.state; });
   }
 
-  std::map<std::uint64_t, DriveApplied> steps() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return steps_;
-  }
-  double force() const { return force_; }
-  ContactForceMapConstPtr newestMap() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return newest_map_;
-  }
+  std::map<std::uint64_t, DriveApplied> steps() const { return observer_.copy(steps_); }
+  double force() const { return observer_.copy(force_); }
+  std::optional<ContactForceMap> newestMap() const { return observer_.copy(newest_map_); }
+  std::string operatingState() const { return observer_.copy(operating_); }
 
   /** Time from the last step before a pause to the first zero force [s]. */
   double timeToZeroForce() const
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     return zero_force_stamp_ - last_step_stamp_;
   }
 
   /** Largest change of the force between two messages since the last call [N]. */
   double largestChange()
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     return std::exchange(largest_change_, 0.0);
-  }
-  std::string operatingState() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return operating_;
   }
 
 private:
-  ros::NodeHandle node_;
-  mutable std::mutex mutex_;
   std::map<std::uint64_t, DriveApplied> steps_;
-  ContactForceMapConstPtr newest_map_;
+  std::optional<ContactForceMap> newest_map_;
   std::string operating_;
-  std::atomic<double> force_{0.0};
+  double force_ = 0.0;
   double zero_force_stamp_ = 0.0;  ///< stamp of the first zero force after the last non-zero one [s]
   double largest_change_ = 0.0;    ///< largest change of the force [N]
   double last_step_stamp_ = 0.0;   ///< stamp of the newest step [s]
-  // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber applied_, force_map_, hand_, state_;
+  TopicObserver observer_;         ///< last, so that it ends before the data that it takes over
 };
 
 class LockStep : public testing::Test
@@ -134,7 +104,7 @@ protected:
 TEST_F(LockStep, A_GraphEqualsTheOfflineSimulationAtEveryStep)
 {
   ASSERT_TRUE(waitUntil(30.0, [this] { return listener_->steps().size() > 2500; }));
-  ContactForceMapConstPtr map;
+  std::optional<ContactForceMap> map;
   ASSERT_TRUE(waitUntil(30.0,
                         [this, &map]
                         {
@@ -204,8 +174,6 @@ TEST_F(LockStep, B_LossOfTheContactNodePausesWithoutForceUntilItsRestart)
   EXPECT_LT(listener_->largestChange(), 0.5 * peak + 5e-3);
 #endif
 }
-
-const auto* const kCallbacks = testing::AddGlobalTestEnvironment(new CallbackThread);
 
 }  // namespace
 }  // namespace endovascular_sim

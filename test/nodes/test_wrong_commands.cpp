@@ -18,6 +18,7 @@
 #include "endovascular_sim/DriveApplied.h"
 #include "nodes/runtime/ros_names.h"
 #include "test/nodes/graph_testing.h"
+#include "test/nodes/topic_observer.h"
 
 namespace endovascular_sim
 {
@@ -52,19 +53,14 @@ class Robot
 public:
   Robot()
   {
-    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     for (std::size_t k = 0; k < kInstruments; ++k)
     {
       topics_[k] = node_.resolveName(nodes::names::kInstruments + std::string(kNames[k]));
       publishers_[k] = node_.advertise<Command>(topics_[k] + nodes::names::kServoJp, 20000);
     }
-    applied_ = node_.subscribe<DriveApplied>(
-        nodes::names::kDriveApplied, 20000, [this](const DriveAppliedConstPtr& step) { receive(*step); },
-        ros::VoidConstPtr(), hints);
-    diagnostics_ = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
-        nodes::names::kDiagnostics, 100,
-        [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { receive(*message); });
-    spinner_.start();
+    observer_.subscribe<DriveApplied>(nodes::names::kDriveApplied, [this](const DriveApplied& step) { receive(step); });
+    observer_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        nodes::names::kDiagnostics, [this](const diagnostic_msgs::DiagnosticArray& message) { receive(message); });
   }
 
   /** True when the simulation receives the commands of both instruments. */
@@ -98,42 +94,19 @@ public:
   bool isHeld() const { return deviation() == 0.0; }
 
   /** Largest difference of the last step from the correct commands [m], [rad], [Pa]. */
-  double deviation() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return deviation_;
-  }
+  double deviation() const { return observer_.copy(deviation_); }
 
   /** Begins a new record of the largest deviation and the largest force. */
   void beginRecord()
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     largest_deviation_ = largest_force_ = 0.0;
   }
 
-  double largestDeviation() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return largest_deviation_;
-  }
-
-  double largestForce() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return largest_force_;
-  }
-
-  double largestSpeed() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return largest_speed_;
-  }
-
-  std::uint64_t steps() const
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return steps_;
-  }
+  double largestDeviation() const { return observer_.copy(largest_deviation_); }
+  double largestForce() const { return observer_.copy(largest_force_); }
+  double largestSpeed() const { return observer_.copy(largest_speed_); }
+  std::uint64_t steps() const { return observer_.copy(steps_); }
 
   /** Holds for a number of steps. @return false when they did not happen within 30 s */
   bool holdFor(std::uint64_t steps)
@@ -152,7 +125,7 @@ public:
   /** Number in the diagnostics, e.g. "rejected, jumps", of an instrument. */
   std::uint64_t count(std::size_t instrument, const std::string& key) const
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<std::mutex> lock(observer_.mutex());
     const auto value = values_.find(topics_[instrument] + ": " + key);
     return value == values_.end() ? 0 : std::strtoull(value->second.c_str(), nullptr, 10);
   }
@@ -163,7 +136,6 @@ public:
 private:
   void receive(const DriveApplied& step)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
     deviation_ = 0.0;
     for (std::size_t k = 0; k < kInstruments; ++k)
     {
@@ -180,14 +152,12 @@ private:
 
   void receive(const diagnostic_msgs::DiagnosticArray& message)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
     for (const diagnostic_msgs::DiagnosticStatus& status : message.status)
       for (const diagnostic_msgs::KeyValue& value : status.values)
         values_[value.key] = value.value;
   }
 
   ros::NodeHandle node_;
-  mutable std::mutex mutex_;
   std::uint64_t steps_ = 0;
   double deviation_ = kInfinity;
   double largest_deviation_ = 0.0;
@@ -197,9 +167,7 @@ private:
   std::map<std::string, std::string> values_;
   std::array<std::string, kInstruments> topics_;
   std::array<ros::Publisher, kInstruments> publishers_;
-  ros::Subscriber applied_;
-  ros::Subscriber diagnostics_;
-  ros::AsyncSpinner spinner_{1};
+  TopicObserver observer_;  ///< last, so that it ends before the data that it takes over
 };
 
 constexpr std::array<double, kInstruments> Robot::kHeld;
