@@ -18,6 +18,7 @@
 #include "nodes/runtime/ros_names.h"
 #include "visualization/force_colour.h"
 #include "visualization/tube_surface.h"
+#include "visualization/wall_surface.h"
 
 namespace endovascular_sim::nodes
 {
@@ -60,13 +61,13 @@ visualization_msgs::Marker marker(const std_msgs::Header& header, const char* na
   return result;
 }
 
-std_msgs::ColorRGBA toColour(const visualization::Colour& colour, double alpha)
+std_msgs::ColorRGBA toMessage(const visualization::TranslucentColour& colour)
 {
   std_msgs::ColorRGBA result;
-  result.r = colour.red;
-  result.g = colour.green;
-  result.b = colour.blue;
-  result.a = static_cast<float>(alpha);
+  result.r = colour.colour.red;
+  result.g = colour.colour.green;
+  result.b = colour.colour.blue;
+  result.a = colour.opacity;
   return result;
 }
 
@@ -144,7 +145,7 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   drawLegend(state.header);
   tube.colors.reserve(tube.points.size());
   for (const std::uint32_t vertex : surface.triangles)
-    tube.colors.push_back(toColour(surface.colours[vertex].colour, 1.0));
+    tube.colors.push_back(toMessage(surface.colours[vertex]));
   // rviz rejects empty triangle lists: no marker before the first edge.
   if (!tube.points.empty())
     wire_publisher_.publish(tube);
@@ -294,9 +295,7 @@ void VisualizationNode::drawHeatMap(const ContactForceMap& map)
   heat.points.resize(patch.corners.size());
   std::transform(patch.corners.begin(), patch.corners.end(), heat.points.begin(), toPoint);
   for (const double value : patch.values)
-    // Small values are transparent; the first colour of the scale, grey, is for the wire only.
-    heat.colors.push_back(toColour(visualization::forceColour(std::max(value, heatScale() / 3.0), heatScale()),
-                                   std::min(1.0, 3.0 * value / heatScale())));
+    heat.colors.push_back(toMessage(visualization::heatColour(value, heatScale())));
   publishOrDelete(heat, heat_publisher_);
   drawLegend(map.header);
 }
