@@ -37,20 +37,12 @@ bool isInLibrary(const std::string& name)
   return fs::path(name).filename() == name && fs::is_regular_file(pathInLibrary(name), error);
 }
 
-yaml::Node* fieldOf(yaml::Node& map, const std::string& key)
-{
-  for (auto& field : map.fields)
-    if (field.first == key)
-      return &field.second;
-  return nullptr;
-}
-
 /** Merges @p top into @p base; fields of @p top override. */
 void overlay(yaml::Node& base, const yaml::Node& top)
 {
   for (const auto& [key, value] : top.fields)
   {
-    yaml::Node* existing = fieldOf(base, key);
+    yaml::Node* existing = base.field(key);
     if (existing == nullptr)
       base.fields.emplace_back(key, value);
     else if (existing->kind == yaml::Node::Kind::kMap && value.kind == yaml::Node::Kind::kMap)
@@ -58,11 +50,6 @@ void overlay(yaml::Node& base, const yaml::Node& top)
     else
       *existing = value;
   }
-}
-
-std::string joined(const std::string& path, const std::string& key)
-{
-  return path.empty() ? key : path + "." + key;
 }
 
 /** Removes `use` or `file` from a map and reads the named file into @p base. @return false if the map has neither */
@@ -75,9 +62,10 @@ bool extractBase(yaml::Node& node, const std::string& path, const std::string& s
   if (use == nullptr && file == nullptr)
     return false;
   if (use != nullptr && file != nullptr)
-    throw InputError(file->file, joined(path, "file") + file->location(), "conflicts with use; keep one of the two");
+    throw InputError(file->file, yaml::keyPath(path, "file") + file->location(),
+                     "conflicts with use; keep one of the two");
   const yaml::Node& name = use != nullptr ? *use : *file;
-  const std::string key = joined(path, use != nullptr ? "use" : "file");
+  const std::string key = yaml::keyPath(path, use != nullptr ? "use" : "file");
   if (use != nullptr && (use->kind != yaml::Node::Kind::kScalar || !isInLibrary(use->text)))
     throw InputError(use->file, key + use->location(), unknownName(use->text));
   const std::string found = use != nullptr ? pathInLibrary(use->text).string() : findSceneFile(*file, key, scene_file);
@@ -92,7 +80,7 @@ bool extractBase(yaml::Node& node, const std::string& path, const std::string& s
 
 void expandStent(yaml::Node& instrument, const std::string& path, const std::string& scene_file)
 {
-  yaml::Node* stent = fieldOf(instrument, "stent");
+  yaml::Node* stent = instrument.field("stent");
   yaml::Node file;
   if (stent == nullptr || !extractBase(*stent, path, scene_file, file))
     return;
@@ -120,7 +108,7 @@ void expandInstrument(yaml::Node& node, const std::string& path, const std::stri
     node = base;
   }
   if (node.kind == yaml::Node::Kind::kMap)
-    expandStent(node, joined(path, "stent"), scene_file);
+    expandStent(node, yaml::keyPath(path, "stent"), scene_file);
 }
 
 instrument::Instrument loadInstrument(const std::string& file, const std::vector<std::string>& overrides,

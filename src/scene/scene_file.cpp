@@ -16,14 +16,6 @@ namespace endovascular_sim::scene
 namespace
 {
 
-yaml::Node* fieldOf(yaml::Node& map, const std::string& key)
-{
-  for (auto& field : map.fields)
-    if (field.first == key)
-      return &field.second;
-  return nullptr;
-}
-
 /** Replaces the path of a procedure with the content of the file. */
 void expandProcedure(yaml::Node& procedure, const std::string& file)
 {
@@ -41,20 +33,20 @@ void removeIfNone(yaml::Node* part)
 /** Expands references to instrument and procedure files, and removes optional parts that are `none`. */
 void normalise(yaml::Node& root, const std::string& file)
 {
-  if (yaml::Node* instrument = fieldOf(root, "instrument"))
+  if (yaml::Node* instrument = root.field("instrument"))
     expandInstrument(*instrument, "instrument", file);
-  if (yaml::Node* instruments = fieldOf(root, "instruments"))
+  if (yaml::Node* instruments = root.field("instruments"))
     for (std::size_t k = 0; k < instruments->items.size(); ++k)
-      if (yaml::Node* instrument = fieldOf(instruments->items[k], "instrument"))
+      if (yaml::Node* instrument = instruments->items[k].field("instrument"))
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
-  if (yaml::Node* procedure = fieldOf(root, "procedure"))
+  if (yaml::Node* procedure = root.field("procedure"))
     expandProcedure(*procedure, file);
   for (const char* part : {"vessel", "sensors", "faults"})
-    removeIfNone(fieldOf(root, part));
-  yaml::Node* fluoroscopy = fieldOf(root, "fluoroscopy");
+    removeIfNone(root.field(part));
+  yaml::Node* fluoroscopy = root.field("fluoroscopy");
   removeIfNone(fluoroscopy);
   if (fluoroscopy != nullptr)
-    removeIfNone(fieldOf(*fluoroscopy, "patient"));
+    removeIfNone(fluoroscopy->field("patient"));
 }
 
 /** Resolves the paths of the vessel's files and of the CT. The resolved text retains the paths as written, so that the

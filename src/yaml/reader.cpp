@@ -170,7 +170,7 @@ void Reader::finish() const
 
 std::string Reader::pathOf(const std::string& key) const
 {
-  return path_.empty() ? key : path_ + "." + key;
+  return keyPath(path_, key);
 }
 
 const Node* Reader::visit(const std::string& key, Need need, const std::string& expected)

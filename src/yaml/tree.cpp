@@ -15,11 +15,6 @@ namespace endovascular_sim::yaml
 namespace
 {
 
-std::string joined(const std::string& path, const std::string& key)
-{
-  return path.empty() ? key : path + "." + key;
-}
-
 Node convert(const YAML::Node& yaml, const std::string& file, const std::string& path)
 {
   Node node;
@@ -38,7 +33,7 @@ Node convert(const YAML::Node& yaml, const std::string& file, const std::string&
     case YAML::NodeType::Sequence:
       node.kind = Node::Kind::kSequence;
       for (std::size_t i = 0; i < yaml.size(); ++i)
-        node.items.push_back(convert(yaml[i], file, joined(path, std::to_string(i))));
+        node.items.push_back(convert(yaml[i], file, keyPath(path, std::to_string(i))));
       break;
     case YAML::NodeType::Map:
       node.kind = Node::Kind::kMap;
@@ -50,9 +45,9 @@ Node convert(const YAML::Node& yaml, const std::string& file, const std::string&
         const int line = entry.first.Mark().line + 1;
         if (const auto [earlier, is_new] = lines.emplace(key, line); !is_new)
           throw InputError(
-              file, joined(path, key) + " (line " + std::to_string(line) + ")",
+              file, keyPath(path, key) + " (line " + std::to_string(line) + ")",
               "duplicate key, given first in line " + std::to_string(earlier->second) + "; keep one of the two");
-        node.fields.emplace_back(key, convert(entry.second, file, joined(path, key)));
+        node.fields.emplace_back(key, convert(entry.second, file, keyPath(path, key)));
         node.fields.back().second.line = line;
       }
       break;
@@ -112,9 +107,8 @@ Node& descend(Node& node, const std::string& key, const std::string& where, cons
   if (node.kind == Node::Kind::kScalar)
     throw InputError(origin, where, "\"" + key + "\" is below the scalar \"" + node.text + "\", which has no keys");
   node.kind = Node::Kind::kMap;
-  for (auto& field : node.fields)
-    if (field.first == key)
-      return field.second;
+  if (Node* existing = node.field(key))
+    return *existing;
   Node fresh;
   fresh.file = origin;
   node.fields.emplace_back(key, fresh);
@@ -131,6 +125,14 @@ const Node* Node::find(const std::string& key) const
   return nullptr;
 }
 
+Node* Node::field(const std::string& key)
+{
+  for (auto& field : fields)
+    if (field.first == key)
+      return &field.second;
+  return nullptr;
+}
+
 const Node* Node::below(const std::string& word) const
 {
   if (kind != Kind::kSequence)
@@ -142,6 +144,11 @@ const Node* Node::below(const std::string& word) const
 std::string Node::place() const
 {
   return line > 0 ? "line " + std::to_string(line) : "--set";
+}
+
+std::string keyPath(const std::string& path, const std::string& key)
+{
+  return path.empty() ? key : path + "." + key;
 }
 
 Node parseTree(const std::string& yaml, const std::string& origin)

@@ -28,6 +28,9 @@ struct Node
   /** Field @p key of a map; nullptr if it is missing or null. */
   const Node* find(const std::string& key) const;
 
+  /** Field @p key of a map, which may be null; nullptr if it is missing. */
+  Node* field(const std::string& key);
+
   /** Field @p word of a map, or item of a list with this index; nullptr if it is missing or null. */
   const Node* below(const std::string& word) const;
 
@@ -37,6 +40,9 @@ struct Node
   /** Source location after a key path in messages, e.g. " (line 7)". */
   std::string location() const { return " (" + place() + ")"; }
 };
+
+/** Path of a key in errors, e.g. "drive.speed"; the key itself below the root, whose path is empty. */
+std::string keyPath(const std::string& path, const std::string& key);
 
 /** Parses YAML text whose root is a map.
  *  @param origin name of the text in errors
