@@ -100,8 +100,8 @@ std::string lessonTable(const SessionMetrics& metrics)
     table.add({mark.name, number("%.3g", mark.value), number("%.3g", mark.limit), mark.unit,
                mark.passed ? "passed" : "not passed"});
   const bool passed = std::all_of(marks.begin(), marks.end(), [](const Mark& mark) { return mark.passed; });
-  return "<h2 class=\"" + std::string(passed ? "good" : "bad") + "\">" +
-         escaped(verdict(marks, stepsBefore(metrics))) + "</h2>\n" + table.text();
+  return "<h2 class=\"" + std::string(passed ? "good" : "bad") + "\">" + escaped(verdict(marks, stepsBefore(metrics))) +
+         "</h2>\n" + table.text();
 }
 
 std::string stepsTable(const Json& json)

@@ -242,8 +242,8 @@ void SessionMetrics::followPerforation(const Sample& sample, int foremost)
   perforation_until_ = sample.observation.time;
 }
 
-/** True where the hands push the instruments as a whole: a curve that presses on the wall by its shape, at rest or while
- *  it is withdrawn, pushes them out. */
+/** True where the hands push the instruments as a whole: a curve that presses on the wall by its shape, at rest or
+ * while it is withdrawn, pushes them out. */
 bool isPushed(const procedure::Observation& observation)
 {
   double force = 0.0;

@@ -240,7 +240,7 @@ private:
 
   std::shared_ptr<const World> world_;
   SessionSettings settings_;
-  std::uint64_t check_every_ = 1;   ///< steps between two searches for nodes outside the wall
+  std::uint64_t check_every_ = 1;  ///< steps between two searches for nodes outside the wall
   std::uint64_t last_step_ = 0;
   std::unique_ptr<Run> run_;          ///< null after the session was moved from
   std::unique_ptr<Imaging> imaging_;  ///< null before the first image

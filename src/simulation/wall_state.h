@@ -16,7 +16,8 @@ std::string wallState(intervention::VesselDilatation& opening, WallHistory<inter
                       intervention::WallDisplacement& detected);
 
 /** Loads a state of wallState().
- *  @throws ArchiveError for a state that is damaged or of a vessel with fewer vertices; the arguments are then undefined
+ *  @throws ArchiveError for a state that is damaged or of a vessel with fewer vertices; the arguments are then
+ * undefined
  */
 void loadWallState(const std::string& state, intervention::VesselDilatation& opening,
                    WallHistory<intervention::WallDisplacement>& history, intervention::WallDisplacement& detected);

@@ -133,7 +133,8 @@ TEST(LessonMark, MeasuresTheRemainingStenosis)
   LesionOutcome lesion;
   lesion.after.stenosis = 0.42;
   metrics.setLesions({lesion});
-  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)), "lesson not passed: remaining stenosis 42.0 %, at most 30.0 %");
+  EXPECT_EQ(verdict(lessonMarks(metrics), stepsBefore(metrics)),
+            "lesson not passed: remaining stenosis 42.0 %, at most 30.0 %");
 }
 
 TEST(LessonMark, IsMissingWithoutPassMarks)

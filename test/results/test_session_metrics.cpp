@@ -67,7 +67,7 @@ public:
   SessionMetrics metrics;
   std::uint64_t stale_steps = 0;  ///< before the next sample [1]
   double peak_hand_force = 0.0;   ///< of the wire, in all steps between two samples [N]
-  double hand_force = 0.1;  ///< of the wire; a push is positive [N]
+  double hand_force = 0.1;        ///< of the wire; a push is positive [N]
 
 private:
   double time_ = 0.0;

@@ -12,7 +12,7 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr int kQueue = 100;  ///< loads must not be lost while vessel_server is busy
+constexpr int kQueue = 100;         ///< loads must not be lost while vessel_server is busy
 constexpr double kPatience = 10.0;  ///< longest wait for another node [s]
 
 }  // namespace

@@ -88,7 +88,7 @@ private:
   StepHold hold_;
   StepObstacles obstacles_;
   std::unique_ptr<StepObserver> observer_;
-  session::StepStates step_states_;  ///< of a guided procedure
+  session::StepStates step_states_;               ///< of a guided procedure
   std::unique_ptr<SimulationServices> services_;  ///< last, so that it ends before the members that it uses
 };
 

@@ -66,8 +66,8 @@ std::string RodDynamicsNode::goToStep(std::uint32_t number)
     throw InputError(names::kGoToStep, "", "a person repeats steps of a guided procedure only; this scene has none");
   if (state == nullptr)
     throw InputError(names::kGoToStep, "step",
-                     "step " + std::to_string(step + 1) + " was not begun yet; start the lesson with step:=" +
-                         std::to_string(step + 1));
+                     "step " + std::to_string(step + 1) +
+                         " was not begun yet; start the lesson with step:=" + std::to_string(step + 1));
   return continueFrom(std::string(*state), "step " + std::to_string(step + 1) + " of the procedure");
 }
 

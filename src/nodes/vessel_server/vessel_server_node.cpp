@@ -143,8 +143,8 @@ void VesselServerNode::serveWall(const vessel::Vessel& vessel)
         receiveLoad(event.getConstMessage());
       },
       &queue_);
-  republish_timer_ =
-      node_.createWallTimer(ros::WallDuration(kRepublishPeriod), [this](const ros::WallTimerEvent&) { republish(false); });
+  republish_timer_ = node_.createWallTimer(ros::WallDuration(kRepublishPeriod),
+                                           [this](const ros::WallTimerEvent&) { republish(false); });
   state_service_ = node_.advertiseService(names::kWallState, &VesselServerNode::replaceWall, this);
 }
 

@@ -89,8 +89,7 @@ std::string WallDeformationServer::stateAt(std::uint64_t detected)
   later.restartAt(detected);
   for (const auto& version : history.pending())
     later.append(fromMessage(version.displacement, mesh.vertices.size()));
-  intervention::WallDisplacement moved =
-      intervention::displacementBetween(opening_.initialVertices(), mesh.vertices);
+  intervention::WallDisplacement moved = intervention::displacementBetween(opening_.initialVertices(), mesh.vertices);
   return simulation::wallState(opening_, later, moved);
 }
 

@@ -29,7 +29,8 @@ void ForceGauge::showForce(int share, int peak)
 {
   peak_ = peak;
   setFormat(QString("%1 % of the force limit, peak %2 %").arg(share).arg(peak));
-  setStyleSheet(QString("QProgressBar { text-align: center } QProgressBar::chunk { background: %1 }").arg(colourOf(share)));
+  setStyleSheet(
+      QString("QProgressBar { text-align: center } QProgressBar::chunk { background: %1 }").arg(colourOf(share)));
   setValue(share);  // last: it draws at once
   update();
 }

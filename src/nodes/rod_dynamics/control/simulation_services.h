@@ -18,8 +18,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Services below simulation/ and procedure/, executed in the thread of the simulation, between two steps. Files are read and written
- *  in a thread of their own: steps do not wait for a disk. */
+/** Services below simulation/ and procedure/, executed in the thread of the simulation, between two steps. Files are
+ * read and written in a thread of their own: steps do not wait for a disk. */
 class SimulationServices
 {
 public:
