@@ -16,6 +16,7 @@ COMMANDS = {
     "tips": "one wire with three tips in the same vessel",
     "angles": "the published benchmark from many angles of the hand",
     "sampling": "error of the hand force by the distance of the nodes",
+    "reproduce": "figures and tables of the paper",
     "expert": "recording of the expert's run of a lesson",
 }
 

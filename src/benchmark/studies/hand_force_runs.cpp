@@ -25,6 +25,14 @@ double tipForce(const simulation::Simulation& simulation)
   return force;
 }
 
+double sumOfWallForces(const simulation::Simulation& simulation)
+{
+  double sum = 0.0;
+  for (int i = simulation.state().first_node; i < simulation.discretisation().nodes(); ++i)
+    sum += simulation.state().wall_force[i].norm();
+  return sum;
+}
+
 void writeSection(std::ostream& out, const CoronaryPush& push, double length, double stiffness, double density)
 {
   const double bending = push.stiffness * stiffness;
@@ -34,7 +42,8 @@ void writeSection(std::ostream& out, const CoronaryPush& push, double length, do
 
 }  // namespace
 
-std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides)
+std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides,
+                                    Rejection rejection)
 {
   BenchRun run(scene_text, overrides);
   const scene::Scene& scene = run.scene();
@@ -48,11 +57,13 @@ std::vector<HandSample> pushThrough(const std::string& scene_text, const std::ve
     const double end_time = k * scene.solver.time_step;
     simulation.step(
         {scene.instruments.front().drive.insertionAt(end_time), scene.instruments.front().drive.rotationAt(end_time)});
+    if (!simulation.report().solved && rejection == Rejection::kEnds)
+      break;
     if (!simulation.report().solved)
       throw std::runtime_error("hand_force: a step was rejected in scene " + scene.name);
     const rod::State& state = simulation.state();
-    samples.push_back(
-        {state.inserted_length, state.hand_force, state.hand_torque, tipForce(simulation), state.hand_parts});
+    samples.push_back({state.inserted_length, state.hand_force, state.hand_torque, tipForce(simulation),
+                       sumOfWallForces(simulation), simulation.surfacePenetration(), state.hand_parts});
   }
   return samples;
 }
@@ -112,7 +123,8 @@ std::string sceneText(const CoronaryPush& push)
   const double seconds = push.travel / push.speed;
   out << "drive: {source: script, initial_insertion: 0.002, speed: " << push.speed << ", travel: " << push.travel
       << ", rotation: {points: [[0, 0], [" << seconds << ", " << push.turn << "]]}}\n"
-      << "sampling: {kind: uniform, nodes: 240}\n";
+      << "sampling: {kind: uniform, nodes: 240}\n"
+      << "solver: {scheme: " << push.scheme << ", time_step: " << push.time_step << "}\n";
   return out.str();
 }
 

@@ -15,14 +15,24 @@ struct HandSample
   double force = 0.0;         ///< force at the hand [N]
   double torque = 0.0;        ///< torque at the hand [N·m]
   double tip_force = 0.0;     ///< normal force of the wall on the last 5 mm [N]
+  double wall_force = 0.0;    ///< sum of the magnitudes of the wall's normal forces [N]
+  double penetration = 0.0;   ///< depth of the surface beyond the wall [m]
   rod::HandForceParts parts;  ///< parts of the force
+};
+
+/** Consequence of a rejected step. */
+enum class Rejection
+{
+  kThrows,
+  kEnds  ///< the run ends before it
 };
 
 /** Simulates a scene until the end of the travel of its drive.
  *  @param overrides "key.path=value"
  *  @throws InputError for a rejected scene
- *  @throws std::runtime_error after a rejected step */
-std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides = {});
+ *  @throws std::runtime_error after a rejected step, with Rejection::kThrows */
+std::vector<HandSample> pushThrough(const std::string& scene_text, const std::vector<std::string>& overrides = {},
+                                    Rejection rejection = Rejection::kThrows);
 
 /** Mean of a quantity between two inserted lengths [m]. */
 double meanOf(const std::vector<HandSample>& samples, double HandSample::*value, double from = 0.0, double to = 1e3);
@@ -43,7 +53,9 @@ struct CoronaryPush
   double turn = 0.0;       ///< final rotation of the hand, proportional to the insertion [rad]
   std::string tip;         ///< value of instrument.tip; empty: straight
   double friction = 0.1;
-  double travel = 0.08;  ///< length of the push [m]
+  double travel = 0.08;        ///< length of the push [m]
+  std::string scheme = "kkt";  ///< value of solver.scheme
+  double time_step = 1e-3;     ///< [s]
 };
 
 /** Scene text of the push. */

@@ -10,7 +10,7 @@ namespace endovascular_sim::benchmark
 /** Tables of handForceStudy(). */
 std::vector<TableSpec> handForceTables();
 
-/** Force at the hand: over insertion as in the charts of Li et al., over the number of nodes, and its noise. */
+/** Force at the hand: over insertion as in the charts of the paper, over the number of nodes, and its noise. */
 std::vector<Section> handForceStudy(const StudyOptions& options, const Progress& progress);
 
 }  // namespace endovascular_sim::benchmark

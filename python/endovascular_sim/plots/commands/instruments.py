@@ -1,14 +1,14 @@
 """Draws instruments from the tables of `instrument_shape`.
 
-Per instrument: the rest shape from two sides, diameter and bending stiffness along the shaft with the radiopaque markers,
-and the compliance chart of a balloon or the length of a stent.
+Up to five instruments: for each one the rest shape from two sides, diameter and bending stiffness along the shaft with the radiopaque
+markers, and the compliance chart of a balloon or the length of a stent. More: a sheet of all tips to a common scale, and of all shafts.
 """
 
 import pathlib
 
 import numpy as np
 
-from .. import style, tables
+from .. import library, style, tables
 from ..command import Failure
 
 COLOURS = {"steel": "#4c6a92", "nitinol": "#b07d2b", "platinum": "#111111", "polymer": "#8a8f98",
@@ -16,6 +16,7 @@ COLOURS = {"steel": "#4c6a92", "nitinol": "#b07d2b", "platinum": "#111111", "pol
 SHOWN_STRAIGHT = 0.020   # drawn length of straight shaft proximal to the first curve [m]
 SHOWN_LEAST = 0.060      # minimum drawn length of an instrument [m]
 ATMOSPHERE = 101325.0    # standard atmosphere [Pa]
+MOST_ROWS = 5            # instruments with a row of their own
 FILES = {"shaft": "shaft.csv", "markers": "shaft_markers.csv", "balloon": "shaft_balloon.csv", "stent": "shaft_stent.csv"}
 
 
@@ -110,6 +111,14 @@ def draw_row(axes, name, shaft, markers, balloon, stent):
             each.axis("off")
 
 
+def rows_of(names, found):
+    """Figure with a row per instrument."""
+    figure, axes = style.figure(4 * len(names), columns=4, panel=(2.3, 1.9), font=7, gridspec_kw={"width_ratios": (1.0, 0.6, 1.2, 1.0)})
+    for k, name in enumerate(names):
+        draw_row(axes[4 * k:4 * k + 4], name, *(found[key].get(name, {}) for key in FILES))
+    return figure
+
+
 def add_arguments(parser):
     parser.add_argument("folder", type=pathlib.Path, help="folder with the tables of `instrument_shape --out shaft.csv`")
     parser.add_argument("picture", help="PNG or SVG file to write")
@@ -121,17 +130,7 @@ def run(options):
     names = list(dict.fromkeys([*found["shaft"], *found["stent"]]))
     if not names:
         raise Failure("%s: no instrument in shaft.csv" % options.folder)
-    columns = 1 if len(names) < 6 else 2
-    rows = -(-len(names) // columns)
-    figure, axes = style.figure(4 * columns * rows, columns=4 * columns, panel=(2.3, 1.9), font=7,
-                                gridspec_kw={"width_ratios": (1.0, 0.6, 1.2, 1.0) * columns})
-    for k in range(columns * rows):
-        begin = 4 * (columns * (k % rows) + k // rows)
-        if k < len(names):
-            draw_row(axes[begin:begin + 4], names[k], *(found[key].get(names[k], {}) for key in FILES))
-        else:
-            for each in axes[begin:begin + 4]:
-                each.axis("off")
+    figure = rows_of(names, found) if len(names) <= MOST_ROWS else library.draw(*(found[key] for key in FILES))
     try:
         style.save(figure, options.picture)
     except (OSError, ValueError) as error:

@@ -4,6 +4,7 @@ Writes tips.png (shapes over time, final positions), tips.csv and a folder of re
 """
 
 import pathlib
+import sys
 
 import numpy as np
 
@@ -85,14 +86,19 @@ def add_arguments(parser):
     command.add_overrides(parser)
 
 
+def compare(out, scene=None, overrides=()):
+    """Runs the three tips into a folder; returns the folder and the row of each."""
+    scene = scene or command.find_scene("tips.yaml")
+    runs = {name: out / name for name in TIPS}
+    for name, folder in runs.items():
+        print("%s tip" % name, file=sys.stderr, flush=True)
+        command.simulate(scene, folder, [*overrides, "instrument.tip=" + TIPS[name]], "--record", "nodes")
+    return runs, [outcome(name, folder) for name, folder in runs.items()]
+
+
 def run(options):
     """Runs the three tips and writes table and picture."""
-    scene = options.scene or command.find_scene("tips.yaml")
-    runs = {name: options.out / name for name in TIPS}
-    for name, folder in runs.items():
-        print("%s tip" % name, flush=True)
-        command.simulate(scene, folder, options.overrides + ["instrument.tip=" + TIPS[name]], "--record", "nodes")
-    rows = [outcome(name, folder) for name, folder in runs.items()]
+    runs, rows = compare(options.out, options.scene, options.overrides)
     tables.write(options.out / "tips.csv", rows)
     style.save(draw(runs, rows), options.out / "tips.png")
     for row in rows:
