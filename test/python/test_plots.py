@@ -78,5 +78,64 @@ class Tables(unittest.TestCase):
             self.read("force\n1\n")
 
 
+def straight_shaft(radius_of_bend=None):
+    """Table of a shaft of 200 mm and 0.9 mm, whose last 20 mm are bent."""
+    arc = np.linspace(0.0, 0.2, 401)
+    along, across = arc.copy(), np.zeros_like(arc)
+    if radius_of_bend:
+        angle = np.maximum(arc - 0.18, 0.0) / radius_of_bend
+        along, across = np.minimum(arc, 0.18) + radius_of_bend * np.sin(angle), radius_of_bend * (1.0 - np.cos(angle))
+    return {"arc_length": arc, "x": np.zeros_like(arc), "y": across, "z": along, "diameter": np.full_like(arc, 9e-4),
+            "inner_diameter": np.zeros_like(arc), "bending_stiffness": np.where(arc < 0.1, 291e-6, 40e-6)}
+
+
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib cannot be imported")
+class SheetOfInstruments(unittest.TestCase):
+    def test_draws_all_tips_to_one_scale_with_their_names(self):
+        from endovascular_sim.plots import library
+        shafts = {"guidewire_%d" % k: straight_shaft(0.01 if k == 2 else None) for k in range(6)}
+        balloon = {"from_tip": np.array([0.005]), "length": np.array([0.015])}
+        stent = {"nominal_diameter": np.array([3e-3]), "diameter": np.array([1e-3, 3e-3]), "length": np.array([0.018, 0.0178])}
+        figure = library.draw(shafts, {}, {"guidewire_0": balloon}, {"stent_3": stent})
+        tips = figure.axes[0]
+        figure.canvas.draw()
+        self.assertEqual(tips.get_aspect(), 1.0)
+        names = [text.get_text() for text in tips.texts]
+        for name in [*shafts, "stent_3"]:
+            self.assertIn(name.replace("_", " "), names)
+        widths = [np.ptp(patch.get_xy()[:, 0]) for patch in tips.patches]
+        self.assertAlmostEqual(min(widths), 0.9, places=6)   # a straight wire has its diameter [mm]
+        self.assertGreater(max(widths), 9.0)                 # the bent tip
+        self.assertEqual([label.get_text() for label in figure.axes[1].get_yticklabels()], ["guidewire %d" % k for k in range(6)])
+
+
+class Reproduction(unittest.TestCase):
+    def test_writes_its_tables_between_the_marks_of_a_page(self):
+        from endovascular_sim.plots.paper import page
+        from endovascular_sim.plots.paper.row import Measurement
+        lines = [Measurement("nodes", "75", "48", "≤ 88", True, True).cells("fig8"),
+                 Measurement("charts", "12", "1", "as stated", False, False).cells("fig10"),
+                 Measurement(page.SECONDS, "–", "200").cells("fig10")]
+        text = "before\n" + page.BEGIN + "\nOLD\n" + page.END + "\nafter\n"
+        made = page.with_tables(text, lines, "page")
+        self.assertTrue(made.startswith("before\n") and made.endswith("\nafter\n") and "OLD" not in made)
+        self.assertIn("| Fig. 8 | nodes | 75 | 48 | yes | ≤ 88 | yes |", made)
+        self.assertIn("| 3 min | fails |", made)
+        self.assertEqual(page.with_tables(made, lines, "page"), made)
+        with self.assertRaisesRegex(command.Failure, "marks"):
+            page.with_tables("nothing", lines, "page")
+
+    def test_compares_results_but_no_times(self):
+        from endovascular_sim.plots.commands import reproduce
+        from endovascular_sim.plots.paper.row import TIME, Measurement
+        here = [Measurement("nodes", "–", "48").cells("fig8"), Measurement("time", "–", "1", kind=TIME).cells("fig8")]
+        there = [Measurement("nodes", "–", "48").cells("fig8"), Measurement("time", "–", "2", kind=TIME).cells("fig8"),
+                 Measurement("other", "–", "1").cells("fig9")]
+        self.assertEqual(reproduce.differences(here, there, ["fig8"]), [])
+        there[0]["here"] = "49"
+        self.assertEqual(reproduce.differences(here, there, ["fig8"]), ["fig8, nodes: 48, expected 49"])
+        self.assertEqual([line["row"] for line in reproduce.merged(there, here, ["fig8"])], ["fig8", "fig8", "fig9"])
+
+
 if __name__ == "__main__":
     unittest.main()
