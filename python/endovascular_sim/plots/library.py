@@ -5,8 +5,9 @@ import numpy as np
 from . import style
 
 TIP = 0.060          # drawn length of the straight part before a curve [m]
-CELL = (54.0, 88.0)  # width and height of a tip's cell [mm]
-COLUMNS = 8
+CELL = (54.0, 100.0)  # width and height of a tip's cell [mm]
+COLUMNS = 9
+BASE = 26.0          # height of a tip's proximal end above the lower side of its cell [mm]
 SHAFT = 300.0        # drawn distal length of a shaft [mm]
 WIDER = 7.0          # factor of the diameters of shafts
 ROW = 17.0           # height of a shaft's row [mm of its diameter times WIDER]
@@ -47,15 +48,24 @@ def colours(scale, values):
     return scale(np.clip((np.log(np.maximum(values, 1e-9)) - low) / (high - low), 0.0, 1.0))
 
 
+def visible_scale(plt):
+    """Scale of colours without the bright yellow, which is hard to see on white."""
+    from matplotlib.colors import ListedColormap
+    return ListedColormap(plt.get_cmap("viridis_r")(np.linspace(0.12, 1.0, 256)))
+
+
 def draw_pieces(axes, points, rows, wider, scale):
-    """Draws a tube in pieces of equal stiffness."""
+    """Draws a tube in pieces of equal stiffness. A row of the table describes the part before its point."""
     from matplotlib.patches import Polygon
+    if len(points) < 2:
+        return
     stiffness, diameter = 1e6 * rows["bending_stiffness"], 1e3 * rows["diameter"] * wider
-    bounds = [0, *(np.flatnonzero(np.diff(stiffness)) + 1), len(stiffness)]
+    bounds = [1, *(np.flatnonzero(np.diff(stiffness[1:])) + 2), len(stiffness)]
     for begin, end in zip(bounds, bounds[1:]):
-        part = slice(max(begin - 1, 0), end)
+        part = slice(begin - 1, end)
         widths = np.full(end - part.start, diameter[end - 1])
-        axes.add_patch(Polygon(outline(points[part], widths), facecolor=colours(scale, stiffness[end - 1]), edgecolor="none"))
+        axes.add_patch(Polygon(outline(points[part], widths), facecolor=colours(scale, stiffness[end - 1]), linewidth=0.4,
+                               edgecolor=colours(scale, stiffness[end - 1])))
 
 
 def draw_markers(axes, points, rows, markers, wider):
@@ -73,34 +83,35 @@ def draw_tip(axes, name, shaft, markers, place, scale):
     rows = distal(shaft, shown_length(shaft))
     points = 1e3 * np.stack([rows["y"], rows["z"]], axis=1)
     low, high = points.min(axis=0), points.max(axis=0)
-    middle, base = place[0] + 0.5 * CELL[0], place[1] + 20.0
+    middle, base = place[0] + 0.5 * CELL[0], place[1] + BASE
     points = points - [0.5 * (low[0] + high[0]), low[1]] + [middle, base]
     draw_pieces(axes, points, rows, 1.0, scale)
     draw_markers(axes, points, rows, markers, 1.0)
     stiffness = 1e6 * shaft["bending_stiffness"]
-    label(axes, middle, place[1], name, "%.2f mm, %s N·mm²" % (
-        1e3 * shaft["diameter"].max(), "–".join("%.3g" % one for one in dict.fromkeys((stiffness.max(), stiffness.min())))))
+    label(axes, middle, place[1], name, "%.2f mm\n%s N·mm²" % (
+        1e3 * shaft["diameter"].max(), "–".join("%.0f" % one if one >= 10 else "%.2g" % one
+                                                for one in dict.fromkeys((stiffness.max(), stiffness.min())))))
 
 
 def draw_stent(axes, name, stent, place):
     """Draws an expanded stent of nominal diameter as rings of zigzags."""
     diameter = 1e3 * stent["nominal_diameter"][0]
     length = 1e3 * np.interp(stent["nominal_diameter"][0], stent["diameter"], stent["length"])
-    middle, base, rings = place[0] + 0.5 * CELL[0], place[1] + 20.0, 8
+    middle, base, rings = place[0] + 0.5 * CELL[0], place[1] + BASE, 8
     across = middle + 0.5 * diameter * np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
     for ring in range(rings):
         heights = base + (ring + np.array([0.1, 0.9, 0.1, 0.9, 0.1])) * length / rings
         axes.plot(across, heights, color="#26384f", linewidth=0.9)
-    label(axes, middle, place[1], name, "%.2f mm, %.0f mm long" % (diameter, length))
+    label(axes, middle, place[1], name, "%.2f mm\n%.0f mm long" % (diameter, length))
 
 
 def label(axes, x, y, name, values):
     """Name and values of a cell."""
     words = name.split("_")
     half = (len(words) + 1) // 2
-    lines = [" ".join(words[:half]), " ".join(words[half:])] if len(name) > 14 else [" ".join(words), ""]
-    axes.text(x, y + 16.0, "\n".join(lines).rstrip(), ha="center", va="top", fontsize=8.5, fontweight="bold")
-    axes.text(x, y + 5.0, values, ha="center", va="top", fontsize=7)
+    lines = [" ".join(words[:half]), " ".join(words[half:])] if len(name) > 14 else [" ".join(words)]
+    axes.text(x, y + BASE - 3.0, "\n".join(lines), ha="center", va="top", fontsize=8.5, fontweight="bold")
+    axes.text(x, y + BASE - 14.5, values, ha="center", va="top", fontsize=7.5)
 
 
 def draw_shaft(axes, shaft, markers, balloon, height, scale):
@@ -126,28 +137,31 @@ def draw(shafts, markers, balloons, stents):
     names = sorted({*shafts, *stents}, key=lambda name: (group_of(name), name))
     long = [name for name in names if name in shafts]
     lines = -(-len(names) // COLUMNS)
-    scale = plt.get_cmap("viridis_r")
-    figure, (above, below) = plt.subplots(2, 1, figsize=(12.0, 12.0 * lines * CELL[1] / (COLUMNS * CELL[0]) + 0.23 * len(long) + 0.9),
-                                          gridspec_kw={"height_ratios": (12.0 * lines * CELL[1] / (COLUMNS * CELL[0]), 0.23 * len(long) + 0.5)})
+    scale = visible_scale(plt)
+    width = 12.0
+    heights = (width * lines * CELL[1] / (COLUMNS * CELL[0]) + 0.3, 0.23 * len(long) + 1.3)
+    figure = plt.figure(figsize=(width, sum(heights)))
+    above, below = (part.subplots() for part in figure.subfigures(2, 1, height_ratios=heights))
     for k, name in enumerate(names):
         place = (k % COLUMNS * CELL[0], -(k // COLUMNS + 1) * CELL[1])
         if name in shafts:
             draw_tip(above, name, shafts[name], markers.get(name, {}), place, scale)
         else:
             draw_stent(above, name, stents[name], place)
-    above.plot([4.0, 24.0], [-3.0, -3.0], color="black", linewidth=2)
-    above.text(26.0, -3.0, "20 mm", va="center")
+    above.plot([4.0, 24.0], [-2.0, -2.0], color="black", linewidth=2)
+    above.text(26.0, -2.0, "20 mm", va="center")
     above.set(xlim=(0.0, COLUMNS * CELL[0]), ylim=(-lines * CELL[1], 0.0), aspect="equal",
               title="Tips at rest, to scale; black: radiopaque. Below: largest diameter, bending stiffness of the shaft and of the tip")
     above.axis("off")
     for k, name in enumerate(long):
         draw_shaft(below, shafts[name], markers.get(name, {}), balloons.get(name), -ROW * k, scale)
     below.set(xlim=(-SHAFT, 4.0), ylim=(-ROW * (len(long) - 0.4), 0.6 * ROW), xlabel="distance from the tip [mm]",
-              title="Shafts, distal %g mm; diameters %g times larger, white: lumen, light blue: balloon" % (SHAFT, WIDER))
+              title="Shafts, distal %g mm; diameters %g times larger, pale: lumen, light blue: balloon" % (SHAFT, WIDER))
     below.set_yticks([-ROW * k for k in range(len(long))], [name.replace("_", " ") for name in long])
     below.set_xticks(range(-int(SHAFT), 1, 50), [str(k) for k in range(int(SHAFT), -1, -50)])
     below.grid(axis="y", visible=False)
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LogNorm
-    figure.colorbar(ScalarMappable(LogNorm(*STIFFNESS), scale), ax=below, label="bending stiffness EI [N·mm²]", pad=0.01, fraction=0.03)
+    below.figure.colorbar(ScalarMappable(LogNorm(*STIFFNESS), scale), ax=below, label="bending stiffness EI [N·mm²]", orientation="horizontal", aspect=60,
+                    fraction=0.04)
     return figure
