@@ -10,14 +10,14 @@ from .row import Measurement, number
 
 PUSH = 3500         # steps until the tip has passed the bend of config/scenes/tube.yaml
 SHOWN = 7           # frames of the tip in the picture
-ARROW = 6.0         # length of a director in the picture [mm]
+ARROW = 8.0         # length of a director in the picture [mm]
 DIRECTORS = (("tangent", "#333333"), ("$d_1$", "#b3261e"), ("$d_2$", "#2b5c8a"))
 
 
 def frame_of_the_tip(folder):
     """Fig. 2: material frame of the tip while a wire is pushed through a bend and turned."""
     session = endovascular_sim.World("tube").session()
-    figure, [axes] = style.figure(panel=(6.0, 4.2))
+    figure, [axes] = style.figure(panel=(5.0, 6.2))
     error, deviation = 0.0, 0.0
     for k in range(SHOWN):
         session.step(n=PUSH // SHOWN)
@@ -32,9 +32,9 @@ def frame_of_the_tip(folder):
             if k == 0:
                 axes.plot([], [], color=colour, label=name)
     axes.plot(*(1e3 * session.nodes[:, [0, 2]].T), color="#8a8f98", linewidth=2, zorder=0, label="wire at the end")
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.set(xlabel="x [mm]", ylabel="z, along the introducer [mm]", title="Frames of the tip on its way through the bend")
-    axes.legend()
+    axes.set_aspect("equal")
+    axes.set(xlim=(-10, 65), ylim=(0, 95), xlabel="x [mm]", ylabel="z, along the introducer [mm]", title="Frames of the tip on its way through the bend")
+    axes.legend(loc="lower right")
     style.save(figure, folder / "fig2.png")
     return [Measurement("largest error of orthonormality of (tangent, d1, d2) [1]", "0", number(error, 1), "< 1e-12", error < 1e-12,
                         error < 1e-12),
@@ -51,9 +51,9 @@ def segments(folder):
     rest = world.lengths[0] / 75
     lengths = wires.edges(nodes)
     strain = np.abs(lengths / rest - 1.0).max()
-    figure, [axes] = style.figure(panel=(6.0, 4.2))
+    figure, [axes] = style.figure(panel=(4.2, 5.4))
     wires.draw_nodes(axes, nodes, color="#2b5c8a", markersize=4)
-    axes.set(xlabel="x [mm]", ylabel="z, along the introducer [mm]",
+    axes.set(xlim=(-10, 60), ylim=(-5, 90), xlabel="x [mm]", ylabel="z, along the introducer [mm]",
              title="%d nodes, %d segments of %.1f mm" % (len(nodes), len(nodes) - 1, 1e3 * rest))
     style.save(figure, folder / "fig3.png")
     return [Measurement("nodes less segments [1]", "1", str(len(nodes) - len(lengths)), "1", len(nodes) - len(lengths) == 1, True),
@@ -63,10 +63,10 @@ def segments(folder):
 def rest_curvature(folder):
     """Fig. 4: the angled tip turns with the handle in free space and keeps its angle."""
     session = endovascular_sim.World(wires.FREE_TIP).session()
-    figure, [axes] = style.figure(panel=(5.2, 4.6))
+    figure, [axes] = style.figure(panel=(4.6, 5.2))
     angles, offsets = [], []
     for _ in range(8):
-        session.step(n=500)
+        session.step(n=2000)
         nodes = session.nodes
         last = nodes[-1] - nodes[-2]
         hand = session.hands["rotation"][0]
@@ -75,8 +75,8 @@ def rest_curvature(folder):
         tip = nodes[-40:]
         axes.plot(1e3 * tip[:, 0], 1e3 * tip[:, 1], label="%.0f°" % np.degrees(hand))
     axes.set_aspect("equal")
-    axes.set(xlabel="x [mm]", ylabel="y [mm]", title="Angled tip, seen along the shaft, by the turn of the handle")
-    axes.legend(ncol=2)
+    axes.set(xlim=(-9, 9), ylim=(-9, 12), xlabel="x [mm]", ylabel="y [mm]", title="Angled tip, seen along the shaft, by the turn of the handle")
+    axes.legend(ncol=4, loc="upper center")
     style.save(figure, folder / "fig4.png")
     change = max(angles) - min(angles)
     lag = np.degrees(np.abs(np.angle(np.exp(1j * (np.array(offsets) - offsets[-1])))).max())  # the last one after a full turn

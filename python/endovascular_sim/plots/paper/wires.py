@@ -20,13 +20,12 @@ drive:
   initial_insertion: 0.002
   insertion: {points: [[0, 0], [2.8, 0.07], [3.2, 0.07], [4.0, 0.055]]}
   rotation: {amplitude: 0.5, frequency: 0.5}
-sampling: {kind: uniform, nodes: 241}
 """
 
 # Wire with an angled tip, clamped at its proximal end, which is turned in free space.
 FREE_TIP = """
 name: free_tip
-duration: 4
+duration: 16
 vessel: none
 entry: {position: [0, 0, 0], direction: [0, 0, 1], up: [1, 0, 0]}
 instrument:
@@ -36,7 +35,7 @@ instrument:
   tip: {shape: angled, radius: 0.010, angle: 0.785398163397448, straight: 0.006}
 introducer: false
 proximal_end: clamped
-drive: {source: script, rotation: {points: [[0, 0], [4, 6.283185307179586]]}, torque_limit: 1}
+drive: {source: script, rotation: {points: [[0, 0], [16, 6.283185307179586]]}, torque_limit: 1}
 loads: {gravity: [0, 0, 0], damping: 2.0}
 sampling: {kind: uniform, nodes: 101}
 """
@@ -64,7 +63,7 @@ def inserted(session):
 def draw_nodes(axes, nodes, view=(0, 2), **look):
     """Draws edges and nodes of a wire along two axes of the patient frame [mm]."""
     axes.plot(*(1e3 * nodes[:, list(view)].T), "o-", markersize=look.pop("markersize", 2.5), linewidth=look.pop("linewidth", 0.8), **look)
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_aspect("equal", adjustable="box")
 
 
 def draw_wall(axes, world, view, low, high):
