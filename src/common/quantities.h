@@ -13,7 +13,8 @@ using D = Dimension;
 
 // Lengths of instruments.
 constexpr Quantity kSectionLength{"section lengths", "m", D::kLength, 1e-4, 4.0, 1e-6, 10.0};
-constexpr Quantity kWireRadius{"radii of instruments", "m", D::kLength, 5e-5, 5e-3, 1e-6, 0.02};
+constexpr Quantity kWireRadius{"radii of instruments", "m", D::kRadius, 5e-5, 5e-3, 1e-6, 0.02};
+constexpr Quantity kWireDiameter{"diameters of instruments", "m", D::kDiameter, 1e-4, 0.01, 2e-6, 0.04};
 constexpr Quantity kBendRadius{"radii of curvature of tips", "m", D::kLength, 5e-4, 1.0, 1e-5, 10.0};
 constexpr Quantity kTipLeg{"straight legs of tips", "m", D::kLength, 0.0, 0.2, 0.0, 5.0};
 constexpr Quantity kFromTip{"distances from the tip", "m", D::kLength, 0.0, 2.0, 0.0, 10.0};
@@ -74,6 +75,7 @@ constexpr Quantity kTorqueRate{"rates of torque", "N·m/s", D::kOther, 1e-3, 1e3
 constexpr Quantity kHandForce{"forces of the hand", "N", D::kForce, 0.01, 60.0, 1e-4, 1000.0};
 constexpr Quantity kValveFriction{"friction forces of a valve", "N", D::kForce, 1e-3, 10.0, 0.0, 100.0};
 constexpr Quantity kLoadPosition{"positions along the wire", "m", D::kLength, 0.0, 4.0, 0.0, 10.0};
+constexpr Quantity kRollerRadius{"radii of rollers", "m", D::kLength, 5e-4, 0.1, 1e-6, 1.0};
 constexpr Quantity kPointForce{"point forces", "N", D::kForce, 1e-7, 5.0, 0.0, 1000.0};
 constexpr Quantity kPointTorque{"point torques", "N·m", D::kTorque, 1e-9, 0.1, 0.0, 10.0};
 constexpr Quantity kWallForce{"forces on the wall", "N", D::kForce, 1e-4, 10.0, 0.0, 1000.0};

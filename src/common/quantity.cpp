@@ -33,6 +33,7 @@ const std::vector<OtherUnit>& otherUnits(Dimension dimension)
 {
   static const std::vector<OtherUnit> length = {{"mm", 1e-3}, {"cm", 1e-2}, {"µm", 1e-6}, {"inches", kInch}};
   static const std::vector<OtherUnit> diameter = {{"mm", 1e-3}, {"Fr", kFrench}, {"inches", kInch}, {"µm", 1e-6}};
+  static const std::vector<OtherUnit> radius = {{"mm", 1e-3}, {"cm", 1e-2}, {"µm", 1e-6}};
   static const std::vector<OtherUnit> curvature = {{"1/mm", 1e3}, {"1/cm", 1e2}};
   static const std::vector<OtherUnit> angle = {{"deg", kDegree}};
   static const std::vector<OtherUnit> time = {{"ms", 1e-3}, {"µs", 1e-6}, {"min", 60.0}};
@@ -42,7 +43,7 @@ const std::vector<OtherUnit>& otherUnits(Dimension dimension)
   static const std::vector<OtherUnit> acceleration = {{"mm/s²", 1e-3}, {"cm/s²", 1e-2}, {"g", units::kGravity}};
   static const std::vector<OtherUnit> density = {{"g/cm³", 1e3}, {"g/m³", 1e-3}, {"kg/mm³", 1e9}};
   static const std::vector<OtherUnit> force = {{"mN", 1e-3}, {"gf", 1e-3 * units::kGravity}, {"µN", 1e-6}, {"kN", 1e3}};
-  static const std::vector<OtherUnit> torque = {{"N·mm", 1e-3}, {"mN·mm", 1e-6}};
+  static const std::vector<OtherUnit> torque = {{"N·mm", 1e-3}, {"mN·mm", 1e-6}, {"N·cm", 1e-2}};
   static const std::vector<OtherUnit> line_load = {{"N/mm", 1e3}, {"mN/m", 1e-3}};
   static const std::vector<OtherUnit> pressure = {{"atm", kAtmosphere}, {"bar", 1e5},
                                                   {"kPa", 1e3},         {"mmHg", units::kMillimetreOfMercury},
@@ -61,6 +62,8 @@ const std::vector<OtherUnit>& otherUnits(Dimension dimension)
       return length;
     case Dimension::kDiameter:
       return diameter;
+    case Dimension::kRadius:
+      return radius;
     case Dimension::kCurvature:
       return curvature;
     case Dimension::kAngle:

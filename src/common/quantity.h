@@ -12,6 +12,7 @@ enum class Dimension
 {
   kLength,
   kDiameter,
+  kRadius,  ///< of an instrument, whose size is known by its diameter: French and inches are refused
   kCurvature,
   kAngle,
   kTime,

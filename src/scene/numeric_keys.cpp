@@ -60,7 +60,7 @@ const std::vector<std::string> kScenes = {
     // a bench scene with loads and a driven distal end
     "introducer: false\nproximal_end: clamped\ninstrument: " + kWire +
         "\ndistal_end: {hold: clamped, twist: held, tilt: {axis: [0, 0, 1]}}\nloads: {point_loads: [{force: [0, 0, "
-        "0]}]}\n",
+        "0]}]}\nrollers: [{position: [0, 1, 0], radius: 0.01, displacement: {direction: [0, 1, 0]}}]\n",
     // several instruments with a procedure
     "vessel: {friction: 0.1, " + kTube + "}\ninstruments:\n  - {instrument: " + kWire +
         ", drive: {source: procedure}}\n  - {instrument: " + kStentSystem +

@@ -33,6 +33,17 @@ double staleCover(const scene::Scene& scene)
   return left / static_cast<double>(scene.instruments.size());
 }
 
+/** Rollers of a scene at the start; null without. */
+std::unique_ptr<contact::Rollers> makeRollers(const scene::Scene& scene)
+{
+  if (scene.rollers.empty())
+    return nullptr;
+  std::vector<contact::Roller> rollers;
+  for (const scene::RollerScene& roller : scene.rollers)
+    rollers.push_back({roller.positionAt(0.0), roller.axis, roller.radius, roller.friction});
+  return std::make_unique<contact::Rollers>(std::move(rollers));
+}
+
 }  // namespace
 
 std::vector<drive::HandCommand> commandsAt(const scene::Scene& scene, double time)
@@ -48,7 +59,8 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
   : scene_(scene),
     entry_(entry),
     distal_direction_(scene.distal.direction.isZero() ? entry.direction : scene.distal.direction.normalized()),
-    contacts_(contacts),
+    rollers_(makeRollers(scene)),
+    contacts_(rollers_ ? rollers_.get() : contacts),
     sampling_(makeSampling(scene, entry, centreline)),
     samples_(sampling_ != nullptr),
     sampling_every_(samplingInterval(scene)),
@@ -210,6 +222,49 @@ rod::EndMotion Simulation::distalMotionAt(double t) const
           distal.rotation.at(t)};
 }
 
+/** Longest travel of a roller in the coming step [m]. */
+double Simulation::travelOfRollers() const
+{
+  double longest = 0.0;
+  for (const scene::RollerScene& roller : scene_.rollers)
+    longest = std::max(longest, std::abs(roller.displacement.at(time() + scene_.solver.time_step) -
+                                         roller.displacement.at(time())));
+  return longest;
+}
+
+/** Work of the rollers on the wire by their last movement: every node with a force bears on the nearest one [J].
+ *  @param before positions before the movement */
+double Simulation::workOfRollers(const std::vector<contact::Roller>& before) const
+{
+  double work = 0.0;
+  for (std::size_t i = 0; i < state_.wall_force.size(); ++i)
+  {
+    if (state_.wall_force[i].isZero(0.0))
+      continue;
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < before.size(); ++k)
+      if (contact::distanceFrom(rollers_->rollers()[k], state_.position[i]) <
+          contact::distanceFrom(rollers_->rollers()[nearest], state_.position[i]))
+        nearest = k;
+    work += state_.wall_force[i].dot(rollers_->rollers()[nearest].position - before[nearest].position);
+  }
+  return work;
+}
+
+/** Moves the rollers to their positions at a time [s].
+ *  @return true if one has moved, so that the contact set is invalid */
+bool Simulation::placeRollers(double time)
+{
+  bool moved = false;
+  for (std::size_t k = 0; rollers_ && k < scene_.rollers.size(); ++k)
+  {
+    const Eigen::Vector3d position = scene_.rollers[k].positionAt(time);
+    moved = moved || rollers_->rollers()[k].position != position;
+    rollers_->moveTo(k, position);
+  }
+  return moved;
+}
+
 /** Updates adaptive sampling. A stale contact set holds only for the present edges. */
 void Simulation::resample()
 {
@@ -331,7 +386,7 @@ void Simulation::rest()
 int Simulation::substepsFor(const std::vector<drive::HandIncrement>& wanted, const rod::EndMotion& from,
                             const rod::EndMotion& to) const
 {
-  double travel = (to.displacement - from.displacement).norm();
+  double travel = std::max((to.displacement - from.displacement).norm(), travelOfRollers());
   double turn = std::max(std::abs(to.rotation - from.rotation), (to.tilt - from.tilt).norm());
   for (const drive::HandIncrement& hand : wanted)
   {
@@ -412,8 +467,14 @@ void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
     setHandles(parts_, stale, dt, input);
     input.distal = stale ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
+    const std::vector<contact::Roller> rollers = rollers_ ? rollers_->rollers() : std::vector<contact::Roller>();
+    const bool rollers_move = placeRollers(time() + k * dt);
+    if (rollers_move)
+      stepper_->invalidateContacts();
     prepareContactRadii();
     moveWithinGrips(input, dt, pass);
+    if (rollers_move && observer_ != nullptr && report_.solved)
+      observer_->addMovedWall(workOfRollers(rollers));
     if (!report_.solved)
       break;  // the wire keeps its position; later steps make up for the motion of the handle
   }

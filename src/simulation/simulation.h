@@ -10,6 +10,7 @@
 #include "common/hash.h"
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
+#include "contact/rollers.h"
 #include "drive/grip_search.h"
 #include "rod/boundary/hemostatic_valve.h"
 #include "rod/sampling/adaptive_sampling.h"
@@ -30,7 +31,8 @@ std::vector<drive::HandCommand> commandsAt(const scene::Scene& scene, double tim
 class Simulation
 {
 public:
-  /** @param contacts source of contact sets, null without a vessel; must outlive the simulation
+  /** @param contacts source of contact sets, null without a vessel; must outlive the simulation. Those of a scene's
+   *         rollers come from the simulation itself
    *  @param centreline of the vessel, whose curvature adaptive sampling uses ahead of the tip; may be null
    *  @param wall that balloons deform, e.g. a LocalDeformableWall; null: a rigid wall. Must outlive the simulation
    *  @throws InputError when the scene's wire, sampling or scheme cannot be simulated */
@@ -123,6 +125,9 @@ public:
   /** Events of balloons and stents so far. */
   const std::vector<TimedEvent>& events() const { return treatments_.events(); }
 
+  /** Rollers at their positions after the last step; null without. */
+  const contact::Rollers* rollers() const { return rollers_.get(); }
+
   /** Balloon of an instrument, with its stent; null without. */
   const intervention::Treatment* treatment(int instrument) const { return treatments_.of(instrument); }
 
@@ -152,6 +157,9 @@ private:
   void setHandles(const std::vector<drive::HandIncrement>& parts, bool stale, double dt, rod::StepInput& input);
   void applyLoads(rod::StepInput& input) const;
   rod::EndMotion distalMotionAt(double t) const;
+  double travelOfRollers() const;
+  double workOfRollers(const std::vector<contact::Roller>& before) const;
+  bool placeRollers(double time);
   void resample();
   std::uint64_t beginTreatments();
   void endTreatments();
@@ -165,6 +173,7 @@ private:
   scene::Scene scene_;
   scene::EntryPose entry_;
   Eigen::Vector3d distal_direction_;  ///< direction of the distal end's displacement, unit
+  std::unique_ptr<contact::Rollers> rollers_;  ///< null without rollers
   contact::ContactSource* contacts_;
   std::unique_ptr<rod::AdaptiveSampling> sampling_;  ///< null: uniform
   bool samples_ = false;                             ///< the nodes follow the sampling

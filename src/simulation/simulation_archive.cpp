@@ -134,7 +134,10 @@ void Simulation::archive(Archive& archive)
   }
   archive(state_);
   if (archive.reading())
+  {
     requireFit();
+    placeRollers(time());
+  }
   stepper_->archive(archive, state_);
   archive(treatments_);
 }

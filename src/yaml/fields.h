@@ -41,8 +41,9 @@ enum class Need
 /** Visitor of the fields of one map of a YAML file.
  *
  *  A schema is written once against this interface, for both reading and writing. Reading throws InputError for a
- *  value that is missing, of the wrong type or out of range. Each key that the schema visits counts as known. Units are
- *  SI. The quantity of a number gives its unit, and its usual magnitudes for messages about mistakes of unit. */
+ *  value that is missing, of the wrong type or out of range. Each key that the schema visits counts as known. The
+ *  quantity of a number gives its unit, and its usual magnitudes for messages about mistakes of unit. A number may be
+ *  written with another unit of the same dimension (common/written_unit.h), and is read in the quantity's. */
 class Fields
 {
 public:

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/quantities.h"
 #include "common/text/format.h"
 #include "common/text/words.h"
+#include "common/written_unit.h"
 
 namespace endovascular_sim::yaml
 {
@@ -56,6 +58,28 @@ std::string acceptedText(const Quantity& quantity, const Range& range)
   return (zero ? "0, " : "") + shortNumber(low, 4) + " to " + shortNumber(high, 4) + infinity;
 }
 
+/** Number of a text without a sign, in the unit of the quantity: with a unit behind it, e.g. "5F" or "0.035 in", or
+ *  without. */
+double toMagnitude(const Node& node, const std::string& path, const Quantity& quantity, const std::string& magnitude)
+{
+  // std::from_chars also accepts "inf" and "nan", which are plain words in YAML.
+  const bool starts_with_digit =
+      !magnitude.empty() && (std::isdigit(static_cast<unsigned char>(magnitude[0])) != 0 || magnitude[0] == '.');
+  const char* end = magnitude.data() + magnitude.size();
+  double value = 0.0;
+  const auto result = std::from_chars(magnitude.data(), end, value);
+  if (!starts_with_digit || result.ec != std::errc())
+    rejectNode(node, path, "\"" + node.text + "\" is not a number; expected a number" + inUnit(quantity));
+  const std::string unit(magnitude, static_cast<std::size_t>(result.ptr - magnitude.data()));
+  if (unit.empty())
+    return value;
+  const std::string name = unit.substr(std::min(unit.find_first_not_of(' '), unit.size() - 1));
+  const std::optional<double> of_unit = unitValue(quantity, name);
+  if (!of_unit)
+    rejectNode(node, path, "is \"" + node.text + "\": " + unitRemedy(quantity, name));
+  return value * *of_unit;
+}
+
 double toNumber(const Node& node, const std::string& path, const Quantity& quantity, const Range& range)
 {
   if (node.kind != Node::Kind::kScalar)
@@ -69,17 +93,7 @@ double toNumber(const Node& node, const std::string& path, const Quantity& quant
   else if (magnitude == ".nan" || magnitude == ".NaN" || magnitude == ".NAN")
     rejectNode(node, path, "is not a number (NaN); expected a finite number" + inUnit(quantity));
   else
-  {
-    // std::from_chars also accepts "inf" and "nan", which are plain words in YAML.
-    const bool starts_with_digit =
-        !magnitude.empty() && (std::isdigit(static_cast<unsigned char>(magnitude[0])) != 0 || magnitude[0] == '.');
-    const char* end = magnitude.data() + magnitude.size();
-    const auto result = std::from_chars(magnitude.data(), end, value);
-    if (!starts_with_digit || result.ec != std::errc() || result.ptr != end)
-      rejectNode(node, path,
-                 "\"" + text + "\" is not a number; expected a number" + inUnit(quantity) +
-                     (isPureNumber(quantity) ? "" : ", written without the unit"));
-  }
+    value = toMagnitude(node, path, quantity, magnitude);
   if (signed_text && text[0] == '-')
     value = -value;
   if (!range.contains(value))

@@ -353,4 +353,12 @@ void EnergyAudit::addValve(double push, double turn)
   sums_.sum.valve += push + turn;
 }
 
+/** The normal forces of the wall count as work of the contacts already. */
+void EnergyAudit::addMovedWall(double work)
+{
+  sums_.sum.loads += work;
+  sums_.sum.contact += work;
+  sums_.sum.turnover += std::abs(work);
+}
+
 }  // namespace endovascular_sim::rod

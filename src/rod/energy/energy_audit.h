@@ -29,6 +29,7 @@ public:
   /** A wire that was stopped loses its kinetic energy. */
   void endStep(bool solved) override;
   void addValve(double push, double turn) override;
+  void addMovedWall(double work) override;
   void keep() override { kept_ = sums_; }
   void revert() override { sums_ = kept_; }
 

@@ -13,7 +13,7 @@ struct EnergyBalance
   // Work on the wire.
   double push = 0.0;      ///< hands, along the wire
   double turn = 0.0;      ///< hands, about the wire
-  double loads = 0.0;     ///< external forces and torques, motion of a held distal end
+  double loads = 0.0;     ///< external forces and torques, motion of a held distal end and of rollers
   double pressure = 0.0;  ///< balloons that widen against the wall
 
   // Stored since the start; a node that enters or leaves the simulated part does not count as a change.

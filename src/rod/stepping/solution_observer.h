@@ -32,6 +32,9 @@ public:
    *  @param turn by rotation */
   virtual void addValve(double push, double turn) = 0;
 
+  /** Work of a wall that has moved against the wire in a part [J]. */
+  virtual void addMovedWall(double work) = 0;
+
   /** Keeps what was observed so far; revert() returns to it, any number of times, before steps are repeated. @{ */
   virtual void keep() = 0;
   virtual void revert() = 0;

@@ -197,6 +197,20 @@ struct LoadScene
   std::vector<PointLoad> point_loads;
 };
 
+/** Rigid cylinder on which the wire rests or that presses it (bench scenes). */
+struct RollerScene
+{
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< point of its axis at the start [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();      ///< unit vector
+  double radius = 0.0;                                  ///< [m]
+  double friction = 0.0;                                ///< Coulomb coefficient; 0: the wire slides freely
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the displacement, unit
+  DriveProfile displacement;                            ///< displacement along direction [m]
+
+  /** Point of the axis at time t [s]. */
+  Eigen::Vector3d positionAt(double t) const { return position + displacement.at(t) * direction; }
+};
+
 enum class SamplingKind
 {
   kUniform,
@@ -310,6 +324,7 @@ struct Scene
   DistalScene distal;      ///< motion of a held distal end
   bool introducer = true;  ///< true: the wire enters through an introducer; false: bench scene with the whole wire
   LoadScene loads;
+  std::vector<RollerScene> rollers;  ///< in place of a vessel
   SamplingScene sampling;
   SolverScene solver;
   std::optional<FluoroscopyScene> fluoroscopy;

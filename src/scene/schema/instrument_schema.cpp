@@ -17,6 +17,22 @@ constexpr double kFullTurn = 6.284;  // largest angle [rad]; a larger one is pro
 const std::vector<std::string> kMaterials = {"nitinol", "steel", "platinum", "polymer", "filled_polymer"};
 const std::vector<std::string> kKinds = {"guidewire", "catheter", "balloon_catheter", "stent"};
 
+/** Reads a radius, or the diameter in its place. Texts of scenes contain the radius. */
+void visitRadius(yaml::Fields& fields, const std::string& radius_key, const std::string& diameter_key, double& radius)
+{
+  if (fields.reading() && fields.has(diameter_key) && fields.has(radius_key))
+    fields.reject(diameter_key, "conflicts with " + radius_key + "; keep one of the two");
+  const bool by_diameter = fields.has(diameter_key);
+  if (fields.reading())
+  {
+    double diameter = 0.0;
+    fields.number(diameter_key, diameter, quantities::kWireDiameter, Range::positive());
+    radius = by_diameter ? 0.5 * diameter : radius;
+  }
+  fields.number(radius_key, radius, quantities::kWireRadius, Range::positive(),
+                by_diameter ? Need::kOptional : Need::kRequired);
+}
+
 /** Reads EI, GJ and EA. Each is given directly or derived for a hollow cylinder with this lumen. */
 void readStiffness(yaml::Fields& fields, rod::Section& section, double inner_radius)
 {
@@ -75,7 +91,7 @@ void visitRestCurvature(yaml::Fields& fields, rod::Section& section)
 void visitSection(yaml::Fields& fields, rod::Section& section, instrument::Material& material, double inner_radius)
 {
   fields.number("length", section.length, quantities::kSectionLength, Range::positive(), Need::kRequired);
-  fields.number("radius", section.radius, quantities::kWireRadius, Range::positive(), Need::kRequired);
+  visitRadius(fields, "radius", "diameter", section.radius);
   if (fields.reading() && section.radius <= inner_radius)
     fields.reject("radius", "is not larger than the lumen; must be greater than inner_radius, " +
                                 std::to_string(1e3 * inner_radius) + "e-3 m");
@@ -151,9 +167,10 @@ void visitShaft(yaml::Fields& fields, instrument::Instrument& instrument)
 {
   const bool solid = instrument.kind == instrument::Kind::kGuidewire;
   if (!solid)
-    fields.number("inner_radius", instrument.inner_radius, quantities::kWireRadius, Range::positive(), Need::kRequired);
-  else if (fields.has("inner_radius"))
-    fields.reject("inner_radius", "a guidewire has no lumen; remove it, or set kind: catheter");
+    visitRadius(fields, "inner_radius", "inner_diameter", instrument.inner_radius);
+  for (const char* key : {"inner_radius", "inner_diameter"})
+    if (solid && fields.has(key))
+      fields.reject(key, "a guidewire has no lumen; remove it, or set kind: catheter");
   auto& wire = instrument.wire;
   fields.list(
       "sections", wire.sections.size(),

@@ -197,6 +197,7 @@ void checkScene(const yaml::Fields& fields, const Scene& scene)
   checkProcedure(fields, scene);
   checkPatient(fields, scene);
   checkEnds(fields, scene);
+  checkRollers(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
       fields.reject(drivePath(scene, k) + "drive.source",
@@ -372,6 +373,8 @@ void visitScene(yaml::Fields& fields, Scene& scene)
   visitEnds(fields, scene);
   const double wire_length = scene.longest();
   fields.map("loads", [&](yaml::Fields& loads) { visitLoads(loads, scene.loads, wire_length); });
+  if (fields.reading() ? fields.has("rollers") : !scene.rollers.empty())
+    visitRollers(fields, scene);
   fields.map("sampling", [&](yaml::Fields& sampling) { visitSampling(sampling, scene.sampling, wire_length); });
   fields.map("solver", [&scene](yaml::Fields& solver) { visitSolver(solver, scene.solver); });
   if (fields.reading() ? fields.has("fluoroscopy") : scene.fluoroscopy.has_value())

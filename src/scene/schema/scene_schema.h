@@ -55,6 +55,10 @@ void visitLimits(yaml::Fields& fields, drive::DriveLimits& limits, bool balloon)
 void visitProfile(yaml::Fields& fields, DriveProfile& profile, const Quantity& quantity);
 void visitEnds(yaml::Fields& fields, Scene& scene);
 void visitLoads(yaml::Fields& fields, LoadScene& loads, double wire_length);
+/** Schema of the list `rollers`. */
+void visitRollers(yaml::Fields& fields, Scene& scene);
+/** Rejects rollers beside a vessel, and those that the straight wire penetrates at the start. */
+void checkRollers(const yaml::Fields& fields, const Scene& scene);
 void visitSolver(yaml::Fields& fields, SolverScene& solver);
 void visitFluoroscopy(yaml::Fields& fields, FluoroscopyScene& fluoroscopy);
 /** Rejects a body without a vessel. */

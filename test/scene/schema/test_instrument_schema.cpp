@@ -42,6 +42,43 @@ TEST(SceneInstrument, AcceptsStiffnessDirectly)
   EXPECT_EQ(section.friction, 0.07);
 }
 
+TEST(SceneInstrument, ReadsTheUnitsOfDataSheets)
+{
+  const std::string text =
+      "instrument={name: c, kind: catheter, inner_diameter: 0.047in, sections: [{length: 90cm, diameter: 5F, material: "
+      "polymer, density: 1.2 g/cm3, young_modulus: 1.0GPa, shear_modulus: 500 MPa}]}";
+  const instrument::Instrument read = loadScene(kBench, {text}).instruments.front().instrument;
+  const rod::Section& section = read.wire.sections.at(0);
+  EXPECT_DOUBLE_EQ(section.length, 0.9);
+  EXPECT_DOUBLE_EQ(section.radius, 2.5e-3 / 3.0);
+  EXPECT_DOUBLE_EQ(read.inner_radius, 0.5 * 0.047 * 0.0254);
+  EXPECT_DOUBLE_EQ(section.density, 1200.0);
+  const double fourth = std::pow(section.radius, 4) - std::pow(read.inner_radius, 4);
+  EXPECT_NEAR(section.bending_stiffness, 1e9 * M_PI * fourth / 4.0, 1e-12);
+  EXPECT_NEAR(section.torsional_stiffness, 0.5e9 * M_PI * fourth / 2.0, 1e-12);
+}
+
+TEST(SceneInstrument, ReadsUnitsInListsAndLoads)
+{
+  const Scene scene = loadScene(kBench, {"loads.point_loads=[{force: [0, 1.5gf, 20 mN], ramp_time: 100ms}]",
+                                         "loads.gravity=[0, 0, -981 cm/s²]", "instrument.sections.0.length=20 cm"});
+  const PointLoad& load = scene.loads.point_loads.at(0);
+  EXPECT_TRUE(load.force.isApprox(Eigen::Vector3d(0.0, 1.5 * 9.80665e-3, 0.02), 1e-12));
+  EXPECT_DOUBLE_EQ(load.ramp_time, 0.1);
+  EXPECT_NEAR(scene.loads.gravity.z(), -9.81, 1e-12);
+  EXPECT_DOUBLE_EQ(load.position, 0.2);
+}
+
+TEST(SceneInstrument, OfADiameterIsThatOfItsRadiusInTheResolvedText)
+{
+  const std::string rest = "material: steel, density: 7000, bending_stiffness: 1e-4, poisson_ratio: 0.3}]}";
+  const auto text = [&rest](const std::string& size)
+  { return loadScene(kBench, {"instrument={name: w, sections: [{length: 0.1, " + size + ", " + rest}).resolved_yaml; };
+  EXPECT_EQ(text("diameter: 8e-4"), text("radius: 4e-4"));
+  EXPECT_EQ(text("diameter: 0.8mm"), text("radius: 4e-4"));
+  EXPECT_EQ(text("diameter: 0.8mm").find("diameter"), std::string::npos);
+}
+
 TEST(SceneInstrument, DerivesMissingStiffnessesFromTheBendingStiffness)
 {
   const rod::Section section = sectionOf("bending_stiffness: 1e-4, poisson_ratio: 0.3");
