@@ -13,7 +13,7 @@ namespace
 
 /** Other spellings of the units of otherUnits(), both without special characters. */
 const std::vector<std::pair<std::string, std::string>> kSpellings = {
-    {"in", "inches"}, {"inch", "inches"}, {"\"", "inches"}, {"F", "Fr"},      {"French", "Fr"},
+    {"in", "inches"}, {"inch", "inches"}, {"\"", "inches"}, {"F", "Fr"},        {"French", "Fr"},
     {"N/mm2", "MPa"}, {"mNm", "Nmm"},     {"°", "deg"},     {"degrees", "deg"}, {"g/cc", "g/cm3"}};
 
 /** Dimension with its name, and the unit of its quantities. */
@@ -53,8 +53,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
 std::string plain(std::string unit)
 {
   const std::vector<std::pair<std::string, std::string>> characters = {
-      {" ", ""},  {"·", ""},  {"⋅", ""}, {"*", ""},  {".", ""}, {"^", ""},
-      {"²", "2"}, {"³", "3"}, {"µ", "u"}, {"μ", "u"}};
+      {" ", ""}, {"·", ""}, {"⋅", ""}, {"*", ""}, {".", ""}, {"^", ""}, {"²", "2"}, {"³", "3"}, {"µ", "u"}, {"μ", "u"}};
   for (const auto& [from, to] : characters)
     replaceAll(unit, from, to);
   for (const auto& [spelling, name] : kSpellings)
@@ -114,7 +113,8 @@ std::string unitRemedy(const Quantity& quantity, const std::string& unit)
     if (const std::string name = other.name; std::find(names.begin(), names.end(), name) == names.end())
       names.push_back(name);
   return of_the_unit + quantity.name +
-         (names.empty() ? " have no unit: give a number" : " are in " + listed(names) + (is_pure ? ", or have none" : "") + advice);
+         (names.empty() ? " have no unit: give a number"
+                        : " are in " + listed(names) + (is_pure ? ", or have none" : "") + advice);
 }
 
 }  // namespace endovascular_sim

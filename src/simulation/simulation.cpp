@@ -227,8 +227,8 @@ double Simulation::travelOfRollers() const
 {
   double longest = 0.0;
   for (const scene::RollerScene& roller : scene_.rollers)
-    longest = std::max(longest, std::abs(roller.displacement.at(time() + scene_.solver.time_step) -
-                                         roller.displacement.at(time())));
+    longest = std::max(
+        longest, std::abs(roller.displacement.at(time() + scene_.solver.time_step) - roller.displacement.at(time())));
   return longest;
 }
 

@@ -172,7 +172,7 @@ private:
 
   scene::Scene scene_;
   scene::EntryPose entry_;
-  Eigen::Vector3d distal_direction_;  ///< direction of the distal end's displacement, unit
+  Eigen::Vector3d distal_direction_;           ///< direction of the distal end's displacement, unit
   std::unique_ptr<contact::Rollers> rollers_;  ///< null without rollers
   contact::ContactSource* contacts_;
   std::unique_ptr<rod::AdaptiveSampling> sampling_;  ///< null: uniform

@@ -52,7 +52,8 @@ TEST(WrittenUnit, OfAnotherDimensionIsRefusedWithItsDimensionAndTheRightUnits)
   EXPECT_FALSE(unitValue(quantities::kModulus, "mm"));
   EXPECT_EQ(unitRemedy(quantities::kModulus, "mm").rfind("mm is a unit of length; moduli are in Pa, GPa, MPa", 0), 0U)
       << unitRemedy(quantities::kModulus, "mm");
-  EXPECT_EQ(unitRemedy(quantities::kSectionLength, "N").rfind("N is a unit of force; section lengths are in m, mm", 0), 0U)
+  EXPECT_EQ(unitRemedy(quantities::kSectionLength, "N").rfind("N is a unit of force; section lengths are in m, mm", 0),
+            0U)
       << unitRemedy(quantities::kSectionLength, "N");
   EXPECT_EQ(unitRemedy(quantities::kDuration, "parsec").rfind("\"parsec\" is no known unit; durations are in s", 0), 0U)
       << unitRemedy(quantities::kDuration, "parsec");

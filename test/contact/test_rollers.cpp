@@ -74,7 +74,8 @@ TEST(Rollers, TouchBothEdgesOfAWireThatBendsAwayFromThem)
 
 TEST(Rollers, BeyondTheMarginAreNotListed)
 {
-  EXPECT_TRUE(detected(oneRoller({0, -6.4e-3 - 2 * kMargin, 0}), queryOf({{-2e-3, 0, 0}, {2e-3, 0, 0}})).features.empty());
+  EXPECT_TRUE(
+      detected(oneRoller({0, -6.4e-3 - 2 * kMargin, 0}), queryOf({{-2e-3, 0, 0}, {2e-3, 0, 0}})).features.empty());
 }
 
 TEST(Rollers, FollowTheirMovement)

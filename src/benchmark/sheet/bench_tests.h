@@ -17,7 +17,7 @@ struct SheetRow
   double value = 0.0;
   std::string unit;
   double reference = std::numeric_limits<double>::quiet_NaN();  ///< expected value in the same unit; NaN: none
-  std::string method;          ///< closed form or brute force that gives the reference
+  std::string method;                                           ///< closed form or brute force that gives the reference
   bool by_difference = false;  ///< true: the deviation is the difference in the unit, for references near zero
 
   /** Value over reference less 1, or their difference; NaN without a reference. */

@@ -22,7 +22,7 @@ constexpr double kTolerance = 1e-10;     // of an equilibrium, over the length o
 constexpr int kMostRounds = 200;         // of the friction
 constexpr double kFrictionError = 1e-5;  // change of the friction forces in a round, over their sum
 constexpr double kTravel = 1e-3;         // m, of the central difference of the energy
-constexpr double kWallStiffness = 2e8;  // per length of wire [N/m²]: 5 µm at 1 N/mm
+constexpr double kWallStiffness = 2e8;   // per length of wire [N/m²]: 5 µm at 1 N/mm
 
 /** Piece of the channel in the plane z = 0. */
 struct Piece
@@ -201,8 +201,8 @@ private:
   double stiffnessOf(int node) const
   {
     const double share = problem_.tail_length > 0.0 ? tailShare(node) : 0.0;
-    return share > 0.0 ? 1.0 / ((1.0 - share) / problem_.bending_stiffness + share / problem_.tail_stiffness) :
-                         problem_.bending_stiffness;
+    return share > 0.0 ? 1.0 / ((1.0 - share) / problem_.bending_stiffness + share / problem_.tail_stiffness)
+                       : problem_.bending_stiffness;
   }
 
   Vector3d tangent(int node) const
@@ -215,8 +215,7 @@ private:
   /** Normal force of the wall on a node. */
   Vector3d normal(int node) const
   {
-    Vector3d force =
-        -wallPotential(pieces_, clearanceOf(node), lengthOf(node), equilibrium_.position[node]).gradient;
+    Vector3d force = -wallPotential(pieces_, clearanceOf(node), lengthOf(node), equilibrium_.position[node]).gradient;
     force.z() = 0.0;
     return force;
   }
@@ -318,9 +317,9 @@ double trackingForce(const ChannelProblem& problem)
     at.tail_length = reached - inserted;
     return channelStatics(at);
   };
-  const double elastic = (stateAt(problem.inserted_length + kTravel).energy -
-                          stateAt(problem.inserted_length - kTravel).energy) /
-                         (2.0 * kTravel);
+  const double elastic =
+      (stateAt(problem.inserted_length + kTravel).energy - stateAt(problem.inserted_length - kTravel).energy) /
+      (2.0 * kTravel);
   const double normal = stateAt(problem.inserted_length).normalForceBefore(problem.inserted_length);
   return elastic + problem.advance * problem.friction * normal;
 }

@@ -8,8 +8,8 @@
 namespace endovascular_sim::benchmark
 {
 
-/** Straight wire in a plane channel, held by the introducer at the channel's start: one of uniform stiffness, or one that
- *  ends in a softer tail, as a catheter over a guidewire that reaches further. */
+/** Straight wire in a plane channel, held by the introducer at the channel's start: one of uniform stiffness, or one
+ * that ends in a softer tail, as a catheter over a guidewire that reaches further. */
 struct ChannelProblem
 {
   std::vector<vessel::TubePiece> pieces;  ///< plane_angle 0 or π

@@ -35,7 +35,8 @@ std::string deviationText(const SheetRow& row)
 {
   if (std::isnan(row.reference))
     return "";
-  return row.by_difference ? formatted("%+.2g ", row.deviation()) + row.unit : formatted("%+.2f %%", 100.0 * row.deviation());
+  return row.by_difference ? formatted("%+.2g ", row.deviation()) + row.unit
+                           : formatted("%+.2f %%", 100.0 * row.deviation());
 }
 
 std::string rowOf(const SheetRow& row)

@@ -114,16 +114,16 @@ BenchTest pushabilityTest(const instrument::Instrument& instrument, const Specim
   BenchTest test;
   test.name = kScene;
   test.heading = "Pushability";
-  test.conditions =
-      formatted("Straight specimen of the section %.0f mm from the tip, EI %.4g N·mm², in a channel with bends of %.0f° in "
-                "sum and %.0f mm; clearance %.3g mm, friction %.3g; distal forces of 5 to 10 EI/R².",
-                1e3 * from_tip, 1e6 * section.bending_stiffness, turn / units::kDegree, 1e3 / curvature,
-                1e3 * problem.clearance, friction);
+  test.conditions = formatted(
+      "Straight specimen of the section %.0f mm from the tip, EI %.4g N·mm², in a channel with bends of %.0f° in "
+      "sum and %.0f mm; clearance %.3g mm, friction %.3g; distal forces of 5 to 10 EI/R².",
+      1e3 * from_tip, 1e6 * section.bending_stiffness, turn / units::kDegree, 1e3 / curvature, 1e3 * problem.clearance,
+      friction);
   const double high = kHighForce * unit;
-  test.rows = {{formatted("proximal force for a distal force of %.3g N", high), intercept + slope * high, "N", expected[1],
-                "brute force: statics of the wire in the channel with friction"},
-               {"transmitted share of a further push", 100.0 / slope, "%", 100.0 * high * 0.5 / (expected[1] - expected[0]),
-                "brute force: the same statics"},
+  test.rows = {{formatted("proximal force for a distal force of %.3g N", high), intercept + slope * high, "N",
+                expected[1], "brute force: statics of the wire in the channel with friction"},
+               {"transmitted share of a further push", 100.0 / slope, "%",
+                100.0 * high * 0.5 / (expected[1] - expected[0]), "brute force: the same statics"},
                {"the same, as a rope", 100.0 / slope, "%", 100.0 * std::exp(-friction * turn),
                 "Euler–Eytelwein, exp(−μΘ): the limit of small bending stiffness and clearance"}};
   test.plots = {plot};

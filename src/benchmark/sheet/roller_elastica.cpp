@@ -9,9 +9,9 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr int kPanels = 2000;              // of Simpson's rule; even
-constexpr int kBisections = 100;           // of the slope at the support
-constexpr double kSteepest = 1.2;          // rad, slope at the support; the force has passed its maximum there
+constexpr int kPanels = 2000;               // of Simpson's rule; even
+constexpr int kBisections = 100;            // of the slope at the support
+constexpr double kSteepest = 1.2;           // rad, slope at the support; the force has passed its maximum there
 constexpr double kLargestDeflection = 0.3;  // over the span
 
 /** Half of the wire at a slope of its contact with the support. */
@@ -46,8 +46,7 @@ HalfWire halfWireAt(const ThreePointBend& bend, double slope)
   lengths(slope, along, across);
   const double half = 0.5 * bend.span - bend.reach * std::sin(slope);
   const double scale = half / along;  // √(EI/(2N))
-  return {0.5 * bend.bending_stiffness / (scale * scale),
-          scale * across + bend.reach * (1.0 - std::cos(slope))};
+  return {0.5 * bend.bending_stiffness / (scale * scale), scale * across + bend.reach * (1.0 - std::cos(slope))};
 }
 
 }  // namespace

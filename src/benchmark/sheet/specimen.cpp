@@ -27,8 +27,9 @@ std::string instrumentText(const instrument::Instrument& instrument, const std::
                            const std::string& sections)
 {
   const bool hollow = instrument.inner_radius > 0.0;
-  return "{name: " + name + (hollow ? formatted(", kind: catheter, inner_radius: %.17g", instrument.inner_radius) : "") +
-         ", sections: [" + sections + "]}";
+  return "{name: " + name +
+         (hollow ? formatted(", kind: catheter, inner_radius: %.17g", instrument.inner_radius) : "") + ", sections: [" +
+         sections + "]}";
 }
 
 /** Index of the section at a distance from the tip. */
@@ -53,9 +54,9 @@ const rod::Section& sectionFromTip(const rod::Wire& wire, double from_tip)
 
 double middleOfShaft(const rod::Wire& wire)
 {
-  const auto longest = std::max_element(wire.sections.begin(), wire.sections.end(),
-                                        [](const rod::Section& a, const rod::Section& b)
-                                        { return a.length < b.length; });
+  const auto longest =
+      std::max_element(wire.sections.begin(), wire.sections.end(),
+                       [](const rod::Section& a, const rod::Section& b) { return a.length < b.length; });
   double from_tip = 0.5 * longest->length;
   for (auto section = longest + 1; section != wire.sections.end(); ++section)
     from_tip += section->length;

@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr const char* kScene = "bench_three_point";
-constexpr double kInterval = 0.02;  // s between two points of the curve
+constexpr double kInterval = 0.02;   // s between two points of the curve
 constexpr std::size_t kLoading = 2;  // index of the loading roller; the supports are 0 and 1
 
 /** State of the wire on the rollers. */
@@ -31,8 +31,8 @@ Reading read(BenchSession& session)
   for (const contact::Feature& feature : session.observe().contacts().features)
     depth[feature.triangle] = std::max(depth[feature.triangle], -feature.gap);
   Reading reading;
-  reading.deflection = session.scene().rollers[kLoading].displacement.at(session.time()) - depth[kLoading] -
-                       0.5 * (depth[0] + depth[1]);
+  reading.deflection =
+      session.scene().rollers[kLoading].displacement.at(session.time()) - depth[kLoading] - 0.5 * (depth[0] + depth[1]);
   for (const Eigen::Vector3d& force : session.simulation().state().wall_force)
     reading.force += std::max(0.0, -force.y());
   return reading;
@@ -60,7 +60,8 @@ results::SvgPlot curvesOf(const std::vector<Reading>& readings, const ThreePoint
   plot.title = "Three-point bending";
   plot.abscissa = "deflection [mm]";
   plot.ordinate = "force [N]";
-  plot.lines = {{"simulation", results::colour(0), {}}, {"exact elastica", results::colour(1), {}},
+  plot.lines = {{"simulation", results::colour(0), {}},
+                {"exact elastica", results::colour(1), {}},
                 {"48 EI δ/L³", results::colour(2), {}}};
   for (const Reading& reading : readings)
   {
@@ -100,10 +101,10 @@ BenchTest threePointTest(const instrument::Instrument& instrument, const Specime
   BenchTest test;
   test.name = kScene;
   test.heading = "Three-point bending";
-  test.conditions = formatted("Straight specimen of the section %.0f mm from the tip, EI %.4g N·mm²; span %.0f mm, rollers "
-                              "of %.2f mm without friction.",
-                              1e3 * from_tip, 1e6 * section.bending_stiffness, 1e3 * bend.span,
-                              1e3 * rollers[0].radius);
+  test.conditions = formatted(
+      "Straight specimen of the section %.0f mm from the tip, EI %.4g N·mm²; span %.0f mm, rollers "
+      "of %.2f mm without friction.",
+      1e3 * from_tip, 1e6 * section.bending_stiffness, 1e3 * bend.span, 1e3 * rollers[0].radius);
   const double stiffness = small.force * std::pow(bend.span, 3) / (48.0 * small.deflection);
   const double area_moment = M_PI / 4.0 * (std::pow(section.radius, 4) - std::pow(instrument.inner_radius, 4));
   test.rows = {{"bending stiffness EI", 1e6 * stiffness, "N·mm²", 1e6 * section.bending_stiffness,

@@ -43,22 +43,22 @@ std::array<double, size> integrate(std::array<double, size> y, double end, Slope
 /** Deflection of the pinned end of a column under a load [N], by a transverse force of 1 N. */
 double columnDeflection(const rod::Wire& wire, double length, double load)
 {
-  return integrate<2>({0.0, 0.0}, length,
-                      [&](double s, double middle, const std::array<double, 2>& y) {
-                        return std::array<double, 2>{
-                            y[1], (length - s - load * y[0]) / stiffnessFromTip(wire, length - middle)};
-                      })[0];
+  return integrate<2>(
+      {0.0, 0.0}, length,
+      [&](double s, double middle, const std::array<double, 2>& y) {
+        return std::array<double, 2>{y[1], (length - s - load * y[0]) / stiffnessFromTip(wire, length - middle)};
+      })[0];
 }
 
 /** Cantilever from its tip to its clamp, under a force across it: slope, moment and distance across. The moment grows
  *  with the distance along. */
 std::array<double, 3> cantilever(const rod::Wire& wire, double length, double force, double tip_slope)
 {
-  return integrate<3>({tip_slope, 0.0, 0.0}, length,
-                      [&](double /*s*/, double middle, const std::array<double, 3>& y) {
-                        return std::array<double, 3>{-y[1] / stiffnessFromTip(wire, middle), force * std::cos(y[0]),
-                                                     std::sin(y[0])};
-                      });
+  return integrate<3>(
+      {tip_slope, 0.0, 0.0}, length,
+      [&](double /*s*/, double middle, const std::array<double, 3>& y) {
+        return std::array<double, 3>{-y[1] / stiffnessFromTip(wire, middle), force * std::cos(y[0]), std::sin(y[0])};
+      });
 }
 
 /** Deflection of the tip under a force [m]: the slope of the tip is that for which the clamp has none. */

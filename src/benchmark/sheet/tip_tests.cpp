@@ -13,10 +13,10 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kInterval = 0.01;        // s between two points of a curve
-constexpr double kDeflection = 2e-3;      // m, of a tip load by definition
-constexpr double kFurther = 1.3;          // largest force over that of the deflection
-constexpr double kPerturbation = 2e-5;    // of the buckling load, across the wire
+constexpr double kInterval = 0.01;                     // s between two points of a curve
+constexpr double kDeflection = 2e-3;                   // m, of a tip load by definition
+constexpr double kFurther = 1.3;                       // largest force over that of the deflection
+constexpr double kPerturbation = 2e-5;                 // of the buckling load, across the wire
 constexpr double kGramForce = 1e-3 * units::kGravity;  // N
 
 /** Length of wire beyond the clamp of a scene, which acts at the middle of the first edge [m]. */

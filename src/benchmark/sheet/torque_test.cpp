@@ -69,8 +69,8 @@ BenchTest torqueTest(const instrument::Instrument& instrument, const SpecimenCho
   problem.inserted_length = session.observe().hand(0).insertion;
   problem.advance = 0.0;
   const ChannelState statics = channelStatics(problem);
-  const ChannelTorque expected = channelTorque(statics, friction, section.radius, section.torsional_stiffness,
-                                               scene.solver.guide_length);
+  const ChannelTorque expected =
+      channelTorque(statics, friction, section.radius, section.torsional_stiffness, scene.solver.guide_length);
   for (const double at : {0.0, turns.lines[0].points.back().first})
     turns.lines[1].points.emplace_back(at, expected.lag / units::kDegree);
 
@@ -78,20 +78,20 @@ BenchTest torqueTest(const instrument::Instrument& instrument, const SpecimenCho
   test.name = kScene;
   test.heading = "Torque response";
   test.conditions = formatted(
-      "Straight specimen of the section %.0f mm from the tip, GJ %.4g N·mm², in a channel with a bend of %.0f° and %.0f mm; "
+      "Straight specimen of the section %.0f mm from the tip, GJ %.4g N·mm², in a channel with a bend of %.0f° and "
+      "%.0f mm; "
       "clearance %.3g mm, friction %.3g. Means over the last of two turns.",
       1e3 * from_tip, 1e6 * section.torsional_stiffness, totalTurn(tube) / units::kDegree,
       1e3 / sharpestCurvature(tube), 1e3 * problem.clearance, friction);
   const auto [least, most] = std::minmax_element(lags.begin(), lags.end());
-  test.rows = {
-      {"lag of the distal end", meanOf(lags) / units::kDegree, "°", expected.lag / units::kDegree,
-       "brute force: statics of the wire in the channel, twist by circumferential friction"},
-      {"whip: variation of the lag over a turn", (*most - *least) / units::kDegree, "°", 0.0,
-       "a straight wire of equal stiffness in all planes turns evenly", true},
-      {"torque at the proximal end", 1e3 * meanOf(torques), "N·mm", 1e3 * expected.torque,
-       "brute force: μ r ΣN of the same statics"},
-      {"sum of the normal forces ΣN", meanOf(normal_forces), "N",
-       statics.totalNormalForce() / std::sqrt(1.0 + friction * friction), "brute force: the same statics"}};
+  test.rows = {{"lag of the distal end", meanOf(lags) / units::kDegree, "°", expected.lag / units::kDegree,
+                "brute force: statics of the wire in the channel, twist by circumferential friction"},
+               {"whip: variation of the lag over a turn", (*most - *least) / units::kDegree, "°", 0.0,
+                "a straight wire of equal stiffness in all planes turns evenly", true},
+               {"torque at the proximal end", 1e3 * meanOf(torques), "N·mm", 1e3 * expected.torque,
+                "brute force: μ r ΣN of the same statics"},
+               {"sum of the normal forces ΣN", meanOf(normal_forces), "N",
+                statics.totalNormalForce() / std::sqrt(1.0 + friction * friction), "brute force: the same statics"}};
   test.plots = {turns};
   return test;
 }

@@ -47,7 +47,8 @@ Pair pairOf(const instrument::Instrument& own, const SpecimenChoice& choice)
   {
     const instrument::Instrument other = scene::loadInstrument(scene::libraryInstrument(name));
     const double others_from_tip = middleOfShaft(other.wire);
-    const Pair pair = is_wire ? Pair{own, other, from_tip, others_from_tip} : Pair{other, own, others_from_tip, from_tip};
+    const Pair pair =
+        is_wire ? Pair{own, other, from_tip, others_from_tip} : Pair{other, own, others_from_tip, from_tip};
     if (pair.wireSection().radius < pair.catheter.inner_radius)
       return pair;
   }
@@ -57,7 +58,7 @@ Pair pairOf(const instrument::Instrument& own, const SpecimenChoice& choice)
 /** Forces on the catheter while its tip passes the bend. */
 struct Tracking
 {
-  std::vector<double> advance;   ///< [N]
+  std::vector<double> advance;     ///< [N]
   std::vector<double> withdrawal;  ///< [N]
 };
 
@@ -132,19 +133,20 @@ BenchTest trackabilityTest(const instrument::Instrument& instrument, const Speci
   test.name = kScene;
   test.heading = "Trackability";
   test.conditions = formatted(
-      "Shaft of %s (EI %.4g N·mm²) over a straight guidewire (EI %.4g N·mm²) through a bend of %.0f° and %.0f mm; clearance "
+      "Shaft of %s (EI %.4g N·mm²) over a straight guidewire (EI %.4g N·mm²) through a bend of %.0f° and %.0f mm; "
+      "clearance "
       "in the channel %.3g mm, friction %.3g. Means while the tip passes the bend from %.0f to %.0f %%.",
       instrument.inner_radius > 0.0 ? "the catheter" : "a catheter", 1e6 * catheter.bending_stiffness,
-      1e6 * wire.bending_stiffness, totalTurn(tube) / units::kDegree, 1e3 / curvature, 1e3 * problem.clearance, friction,
-      100.0 * kFrom, 100.0 * kTo);
+      1e6 * wire.bending_stiffness, totalTurn(tube) / units::kDegree, 1e3 / curvature, 1e3 * problem.clearance,
+      friction, 100.0 * kFrom, 100.0 * kTo);
   const double in = meanOf(found.advance);
   const double out = meanOf(found.withdrawal);
   const std::string brute = "brute force: derivative of the least energy, and μ ΣN, of statics in the channel";
-  test.rows = {{"force of advance", in, "N", meanOf(expected.advance), brute},
-               {"force of withdrawal", out, "N", meanOf(expected.withdrawal), brute},
-               {"elastic part: half their sum", 0.5 * (in + out), "N",
-                0.5 * catheter.bending_stiffness * curvature * curvature,
-                "½ EI/R² of the catheter, for a clearance much smaller than R"}};
+  test.rows = {
+      {"force of advance", in, "N", meanOf(expected.advance), brute},
+      {"force of withdrawal", out, "N", meanOf(expected.withdrawal), brute},
+      {"elastic part: half their sum", 0.5 * (in + out), "N", 0.5 * catheter.bending_stiffness * curvature * curvature,
+       "½ EI/R² of the catheter, for a clearance much smaller than R"}};
   test.plots = {plot};
   return test;
 }

@@ -80,8 +80,8 @@ void checkRollers(const yaml::Fields& fields, const Scene& scene)
   for (std::size_t k = 0; k < scene.rollers.size(); ++k)
   {
     const RollerScene& roller = scene.rollers[k];
-    const double distance = distanceFromAxis(roller, roller.positionAt(0.0), scene.entry.position,
-                                             scene.entry.position + inserted * along);
+    const double distance =
+        distanceFromAxis(roller, roller.positionAt(0.0), scene.entry.position, scene.entry.position + inserted * along);
     if (distance < roller.radius + radius - kTouching)
       fields.reject("rollers." + std::to_string(k) + ".position",
                     "is " + std::to_string(distance) +

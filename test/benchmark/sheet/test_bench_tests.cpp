@@ -20,9 +20,8 @@ instrument::Instrument library(const std::string& name)
 void expectWithin(const BenchTest& test, std::size_t row, double tolerance)
 {
   const SheetRow& found = test.rows.at(row);
-  EXPECT_LT(std::abs(found.deviation()), tolerance)
-      << test.heading << ", " << found.quantity << ": " << found.value << " " << found.unit << ", reference "
-      << found.reference;
+  EXPECT_LT(std::abs(found.deviation()), tolerance) << test.heading << ", " << found.quantity << ": " << found.value
+                                                    << " " << found.unit << ", reference " << found.reference;
 }
 
 TEST(TipFlexibilityTest, GivesTheTipLoadOfTheDataSheets)
@@ -74,7 +73,8 @@ TEST(DataSheet, ListsRowsWithTheirReferences)
   BenchTest test;
   test.name = "scene";
   test.heading = "Test";
-  test.rows = {{"force, at 1 mm", 1.02, "N", 1.0, "beam"}, {"whip", 0.1, "°", 0.0, "none turns", true}, {"free", 2.0, "N"}};
+  test.rows = {
+      {"force, at 1 mm", 1.02, "N", 1.0, "beam"}, {"whip", 0.1, "°", 0.0, "none turns", true}, {"free", 2.0, "N"}};
   sheet.tests = {test};
   EXPECT_EQ(csvOf(sheet),
             "test,quantity,value,unit,reference,deviation,method\n"

@@ -29,8 +29,9 @@ Shape half(double stiffness, double middle_moment, double vertical, double horiz
     return {std::cos(s.slope), std::sin(s.slope), s.moment / stiffness,
             -vertical * std::cos(s.slope) + horizontal * std::sin(s.slope)};
   };
-  const auto moved = [](const Shape& s, const Shape& by, double h) -> Shape
-  { return {s.x + h * by.x, s.y + h * by.y, s.slope + h * by.slope, s.moment + h * by.moment}; };
+  const auto moved = [](const Shape& s, const Shape& by, double h) -> Shape {
+    return {s.x + h * by.x, s.y + h * by.y, s.slope + h * by.slope, s.moment + h * by.moment};
+  };
   double h = 2e-6;
   while (h > 1e-13)
   {

@@ -90,7 +90,8 @@ TEST(ThreePointScene, ContinuesASavedStateBitForBit)
 
 TEST(ThreePointScene, RollersCarryTheWeightOfAWire)
 {
-  session::Session session("bench_three_point", {"rollers.2.displacement.points=[[0, 0]]", "loads.gravity=[0, -9.81, 0]"});
+  session::Session session("bench_three_point",
+                           {"rollers.2.displacement.points=[[0, 0]]", "loads.gravity=[0, -9.81, 0]"});
   session.step(1500);
   double up = 0.0;
   for (const Eigen::Vector3d& force : session.simulation().state().wall_force)
