@@ -29,16 +29,16 @@ SessionRow::SessionRow(SessionPort& port, QWidget& keys)
                           asking(is_recording_ ? Request::kStopRecording : Request::kReset)();
                         });
   layout->addWidget(record_, 0, 3);
-  repeat_ = panelButton("Repeat step", "repeat_step", asking(Request::kRepeatStep));
+  repeat_ = panelButton("Repeat", "repeat_step", asking(Request::kRepeatStep));
   repeat_->setToolTip("Returns to the beginning of this step of the lesson. A further recording begins.");
   repeat_->hide();
-  layout->addWidget(repeat_, 0, 4);
+  layout->addWidget(repeat_, 1, 3);
   for (int column = 0; column < 4; ++column)
     layout->setColumnStretch(column, 1);
   status_ = panelLabel("status");
   recording_ = panelLabel("recording");
-  layout->addWidget(status_, 1, 0, 1, 2);
-  layout->addWidget(recording_, 1, 2, 1, 3);
+  layout->addWidget(status_, 1, 0);
+  layout->addWidget(recording_, 1, 1, 1, 2);
 }
 
 void SessionRow::showState(const SessionState& state, const PanelTexts& texts)
