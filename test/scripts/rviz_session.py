@@ -11,9 +11,11 @@ import time
 import rospy
 from endovascular_sim.msg import ProcedureStep, RodStateVisual, SessionProgress
 
-PLACES = {"start": (44, 100), "pause": (129, 100), "reset": (213, 100), "record": (297, 100),
-          "push": (107, 181), "pull": (275, 181), "twist_left": (107, 216), "twist_right": (275, 216),
-          "overview": (86, 360), "tip": (201, 360), "in_vessel": (288, 360), "focus": (250, 264)}
+PLACES = {"work": {"start": (44, 100), "pause": (129, 100), "reset": (213, 100), "record": (297, 100),
+                   "push": (107, 181), "pull": (275, 181), "twist_left": (107, 216), "twist_right": (275, 216),
+                   "overview": (86, 360), "tip": (201, 360), "in_vessel": (288, 360), "focus": (250, 264)},
+          "lesson": {"start": (44, 38), "pause": (127, 38), "reset": (210, 38), "record": (293, 38), "repeat_step": (293, 62),
+                     "push": (85, 119), "pull": (251, 119), "twist_left": (85, 154), "twist_right": (251, 154), "focus": (90, 201)}}
 
 
 def run(*command, seconds=20, **options):
@@ -24,7 +26,10 @@ def run(*command, seconds=20, **options):
 
 
 class RvizSession:
-    def __init__(self, folder, launch, *arguments, screen="1280x800"):
+    """@param layout of a launch file that has the argument, "work" or "lesson": its places are clicked"""
+
+    def __init__(self, folder, launch, *arguments, screen="1280x800", layout=None):
+        self.places = PLACES[layout or "work"]
         self.folder, self.results = folder, folder + "/results"
         self.state = self.step = self.progress = None
         with socket.socket() as free:
@@ -41,7 +46,7 @@ class RvizSession:
                           ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         os.chmod(folder, 0o700)
         self.log = folder + "/graph.log"
-        self.launch = subprocess.Popen(["roslaunch", "-p", str(port), launch, "results:=" + self.results, *arguments],
+        self.launch = subprocess.Popen(["roslaunch", "-p", str(port), launch, "results:=" + self.results, *([] if layout is None else ["layout:=" + layout]), *arguments],
                                        stdout=open(self.log, "w"), stderr=subprocess.STDOUT, start_new_session=True,
                                        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
@@ -96,7 +101,7 @@ class RvizSession:
         raise AssertionError("%s: not within %g s\n%s" % (name, seconds, self.text()[-2000:]))
 
     def mouse(self, place, *action):
-        x, y = PLACES[place] if isinstance(place, str) else place
+        x, y = self.places[place] if isinstance(place, str) else place
         run("xdotool", "mousemove", str(x), str(y), *action)
 
     def click(self, place):

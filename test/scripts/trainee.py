@@ -72,10 +72,6 @@ class Trainee:
     def key_until(self, key, condition, name):
         self.session.hold_key_until(key, LIMIT, condition, name)
 
-    def choose(self, name):
-        """Chooses an instrument by the key page down."""
-        raise NotImplementedError
-
     def turn(self, k, angle):
         """Turns the handle by an angle, positive by the key right."""
         begin = self.rotation(k)
