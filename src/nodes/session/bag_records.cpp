@@ -75,6 +75,8 @@ public:
     return text;
   }
 
+  bool has(const std::string& name) const { return fields_.count(name) > 0; }
+
   std::string text(const std::string& name) const
   {
     const auto field = fields_.find(name);
@@ -227,7 +229,7 @@ private:
       if (op == kConnection)
         addConnection(fields, data);
       else if (op == kMessageData)
-        visitMessage(fields.number<std::uint32_t>("conn"), data);
+        visitMessage(fields, data);
       else
         throw Damage("unknown kind of record");
     }
@@ -237,19 +239,24 @@ private:
   {
     const Fields description(data);
     BagMessage& connection = connections_[fields.number<std::uint32_t>("conn")];
-    connection.topic = presentTopic(fields.text("topic"));
+    connection.recorded_topic = fields.text("topic");
+    connection.topic = presentTopic(connection.recorded_topic);
+    connection.type = description.text("type");
+    connection.is_latched = description.has("latching") && description.text("latching") == "1";
     connection.md5sum = description.text("md5sum");
     connection.definition = description.text("message_definition");
   }
 
-  void visitMessage(std::uint32_t connection, std::string_view data)
+  void visitMessage(const Fields& fields, std::string_view data)
   {
-    const auto found = connections_.find(connection);
+    const auto found = connections_.find(fields.number<std::uint32_t>("conn"));
     if (found == connections_.end())
       throw Damage("a message has an unknown topic");
     BagMessage message = found->second;
     message.data = reinterpret_cast<const std::uint8_t*>(data.data());
     message.size = static_cast<std::uint32_t>(data.size());
+    const auto time = fields.number<std::uint64_t>("time");  // seconds, then nanoseconds, 32 bits each
+    message.time = ros::Time(static_cast<std::uint32_t>(time), static_cast<std::uint32_t>(time >> 32U) % 1000000000U);
     visit_(message);
   }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <ros/message_traits.h>
+#include <ros/time.h>
 #include <boost/make_shared.hpp>
 
 #include "nodes/runtime/checked_stream.h"
@@ -16,9 +17,13 @@ namespace endovascular_sim::nodes
 /** Serialised message of a bag. */
 struct BagMessage
 {
-  std::string topic;       ///< present name, see presentTopic()
-  std::string md5sum;      ///< hash of the message's definition
-  std::string definition;  ///< as the bag holds it
+  std::string topic;           ///< present name, see presentTopic()
+  std::string recorded_topic;  ///< name in the bag
+  std::string type;            ///< e.g. "endovascular_sim/DriveApplied"
+  std::string md5sum;          ///< hash of the message's definition
+  std::string definition;      ///< as the bag holds it
+  bool is_latched = false;
+  ros::Time time;  ///< of the recording
   const std::uint8_t* data = nullptr;
   std::uint32_t size = 0;  ///< [B]
 

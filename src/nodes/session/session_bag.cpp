@@ -9,19 +9,11 @@
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "nodes/runtime/ros_names.h"
-#include "nodes/session/bag_records.h"
 
 namespace endovascular_sim::nodes
 {
 namespace
 {
-
-/** Reports whether a full topic name ends with a name of the graph; scenes may run in any namespace. */
-bool isTopic(const std::string& topic, const std::string& name)
-{
-  return topic.size() > name.size() &&
-         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
-}
 
 /** Session info of another version. New fields are appended to the message only: the known ones are at its beginning.
  */
@@ -80,7 +72,7 @@ void addMessage(const std::string& file, const BagMessage& message, std::optiona
 {
   if (isTopic(message.topic, names::kSessionInfo))
   {
-    info = message.is<SessionInfo>() ? *message.read<SessionInfo>() : infoOfOtherVersion(message);
+    info = sessionInfo(message);
     requireSamePhysics(file, *info);  // first, so that it is reported before differences of other messages
   }
   else if (isTopic(message.topic, names::kDriveApplied))
@@ -122,6 +114,17 @@ std::string damageOf(const SessionBag& session)
 }
 
 }  // namespace
+
+bool isTopic(const std::string& topic, const std::string& name)
+{
+  return topic.size() > name.size() &&
+         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
+}
+
+SessionInfo sessionInfo(const BagMessage& message)
+{
+  return message.is<SessionInfo>() ? *message.read<SessionInfo>() : infoOfOtherVersion(message);
+}
 
 SessionBag readSessionBag(const std::string& file)
 {

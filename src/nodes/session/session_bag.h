@@ -9,6 +9,7 @@
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "nodes/session/bag_records.h"
 
 namespace endovascular_sim::nodes
 {
@@ -25,6 +26,13 @@ struct SessionBag
   std::optional<std::uint64_t> recorded_steps;  ///< number of steps of the session; empty: the bag has no end
   std::string damage;                           ///< first damage of the file; empty without one
 };
+
+/** Reports whether a full topic name ends with a name of the graph; scenes may run in any namespace. */
+bool isTopic(const std::string& topic, const std::string& name);
+
+/** Identity of a session, also of a former version, whose later fields are then empty.
+ *  @throws ros::Exception when the message ends too early */
+SessionInfo sessionInfo(const BagMessage& message);
 
 /** Reads a bag of the session node without its index. Reading ends at a truncation.
  *  @throws InputError when it holds no session, or a session with another physics number than kPhysicsNumber: the error
