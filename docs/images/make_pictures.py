@@ -110,11 +110,21 @@ def is_current(entry, files):
     return entry.get("made") == hash_of(entry, files)
 
 
+def with_coarse_greys(picture, step):
+    """Picture whose grey pixels, those of X-ray images, have fewer levels: their noise makes a PNG large."""
+    import numpy
+    from PIL import Image
+    pixels = numpy.array(picture.convert("RGB"))
+    grey = pixels.max(axis=2) == pixels.min(axis=2)
+    pixels[grey] = numpy.minimum(pixels[grey].astype(int) // step * step + step // 2, 255)
+    return Image.fromarray(pixels)
+
+
 def encoded(picture, path):
-    """Picture in the format of a path, within LARGEST: PNG with a palette, or JPEG of lower quality, if needed."""
+    """Picture in the format of a path, within LARGEST: PNG with fewer levels of grey, or JPEG of lower quality, if needed."""
     picture = picture.convert("RGB") if picture.mode not in ("L", "RGB") else picture
     choices = ([(picture, {"quality": quality, "optimize": True}) for quality in QUALITIES] if path.suffix == ".jpg" else
-               [(picture, {"optimize": True}), (picture.convert("P", palette=1, colors=256), {"optimize": True})])
+               [(picture, {"optimize": True})] + [(with_coarse_greys(picture, step), {"optimize": True}) for step in (3, 6, 10)])
     for one, options in choices:
         stream = io.BytesIO()
         one.save(stream, "JPEG" if path.suffix == ".jpg" else "PNG", **options)

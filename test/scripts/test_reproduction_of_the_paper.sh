@@ -10,7 +10,7 @@ import pathlib
 import sys
 from endovascular_sim.plots.paper import page, rows
 text, lines = pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"), page.read(pathlib.Path(sys.argv[2]))
-assert page.with_tables(text, lines, "page") == text, "run `plots reproduce --out docs/validation --page docs/REPRODUCE.md`"
+assert page.with_tables(text, lines, "page") == text, "run `plots reproduce --out reproduced --table docs/validation/reproduce.csv --page docs/REPRODUCE.md`"
 for row in rows.ROWS:
     own = [line for line in lines if line["row"] == row.name]
     assert bool(own) == bool(row.measure), row.name

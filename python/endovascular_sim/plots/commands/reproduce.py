@@ -1,7 +1,7 @@
 """Reproduces the figures and tables of the paper that this project began with (docs/REPRODUCE.md): runs every row, checks each
 measurement against what is accepted, and ends with the table.
 
-Writes reproduce.csv and a picture per row. The rows of an existing reproduce.csv that are not run stay."""
+Writes reproduce.csv and a picture per row. The rows of an existing table that are not run stay."""
 
 import csv
 import pathlib
@@ -58,11 +58,12 @@ def print_table(lines):
 
 
 def add_arguments(parser):
-    parser.add_argument("--out", required=True, type=pathlib.Path, metavar="DIR", help="folder for reproduce.csv, pictures and runs")
+    parser.add_argument("--out", required=True, type=pathlib.Path, metavar="DIR", help="folder for table, pictures and runs")
     names = [row.name for row in ROWS if row.measure]
     parser.add_argument("--row", action="append", choices=names, metavar="ROW",
                         help="only this row; may be repeated: %s" % ", ".join(names))
     parser.add_argument("--fast", action="store_true", help="only rows of less than half a minute")
+    parser.add_argument("--table", type=pathlib.Path, metavar="FILE.csv", help="table to write, or whose rows are replaced [DIR/reproduce.csv]")
     parser.add_argument("--page", type=pathlib.Path, metavar="FILE.md", help="page whose tables are written anew")
     parser.add_argument("--compare", type=pathlib.Path, metavar="FILE.csv",
                         help="reproduce.csv whose results, without times, must be equal")
@@ -72,7 +73,7 @@ def run(options):
     """Runs the rows and prints the table."""
     names = options.row or [row.name for row in ROWS if row.measure and (row.fast or not options.fast)]
     options.out.mkdir(parents=True, exist_ok=True)
-    path, new = options.out / "reproduce.csv", []
+    path, new = options.table or options.out / "reproduce.csv", []
     for count, name in enumerate(names, 1):
         row = row_of(name)
         print("%s (%d of %d): %s …" % (row.title, count, len(names), row.paper), file=sys.stderr, flush=True)
