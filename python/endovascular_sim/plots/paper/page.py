@@ -6,7 +6,7 @@ from ..command import Failure
 from .rows import ROWS
 
 BEGIN, END = "<!-- tables: plots reproduce -->", "<!-- end of the tables -->"
-SECONDS = "time of the row [s]"
+SECONDS = "processor time of the row [s]"
 
 
 def read(path):
@@ -28,7 +28,7 @@ def _line(cells):
 
 
 def _duration(rows):
-    """Time of a row in words."""
+    """Processor time of a row in words."""
     seconds = [float(row["here"]) for row in rows if row["quantity"] == SECONDS]
     if not seconds:
         return "–"
