@@ -123,9 +123,7 @@ BenchTest pushabilityTest(const instrument::Instrument& instrument, const Specim
   test.rows = {{formatted("proximal force for a distal force of %.3g N", high), intercept + slope * high, "N",
                 expected[1], "brute force: statics of the wire in the channel with friction"},
                {"transmitted share of a further push", 100.0 / slope, "%",
-                100.0 * high * 0.5 / (expected[1] - expected[0]), "brute force: the same statics"},
-               {"the same, as a rope", 100.0 / slope, "%", 100.0 * std::exp(-friction * turn),
-                "Euler–Eytelwein, exp(−μΘ): the limit of small bending stiffness and clearance"}};
+                100.0 * high * 0.5 / (expected[1] - expected[0]), "brute force: the same statics"}};
   test.plots = {plot};
   return test;
 }

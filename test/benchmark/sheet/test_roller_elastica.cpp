@@ -92,11 +92,11 @@ TEST(RollerElastica, BecomesTheBeamAtSmallDeflection)
 {
   const ThreePointBend knife{0.04, 3e-4, 0.0};
   EXPECT_NEAR(elasticaForce(knife, 4e-6) / beamForce(knife, 4e-6), 1.0, 1e-6);
-  // The contacts move inwards by ρ θ = 3 ρ δ/L: the force grows by 18 ρ δ/L² in the first order.
+  // The contacts move inwards by ρ θ and down by ½ ρ θ², θ = 3 δ/L: the force grows by (18 − 4.5) ρ δ/L² in the first order.
   const ThreePointBend rollers{0.04, 3e-4, 6.8e-3};
   const double deflection = 4e-6;
   EXPECT_NEAR(elasticaForce(rollers, deflection) / beamForce(rollers, deflection) - 1.0,
-              18.0 * 6.8e-3 * deflection / (0.04 * 0.04), 2e-6);
+              13.5 * 6.8e-3 * deflection / (0.04 * 0.04), 2e-6);
 }
 
 TEST(RollerElastica, RefusesADeflectionBeyondItsRange)
