@@ -18,11 +18,14 @@ using Eigen::Vector3d;
 
 constexpr double kEdge = 0.5e-3;         // m
 constexpr double kTipLength = 1e-3;      // m, length of wire that the contact of the tip represents
-constexpr double kTolerance = 1e-10;     // of an equilibrium, over the length of the wire
+constexpr double kTolerance = 1e-9;      // of an equilibrium, over the length of the wire
 constexpr int kMostRounds = 200;         // of the friction
-constexpr double kFrictionError = 1e-5;  // change of the friction forces in a round, over their sum
+constexpr double kRelaxation = 0.5;      // of the friction in a round
+constexpr double kFrictionError = 1e-3;  // of the friction forces at the end, over their sum
 constexpr double kTravel = 1e-3;         // m, of the central difference of the energy
 constexpr double kWallStiffness = 2e8;   // per length of wire [N/m²]: 5 µm at 1 N/mm
+constexpr double kFirstStiffness = 2e5;  // of the first equilibrium, which begins far away [N/m²]
+constexpr double kStiffening = 10.0;     // from one equilibrium to the next
 
 /** Piece of the channel in the plane z = 0. */
 struct Piece
@@ -53,8 +56,8 @@ struct Piece
   {
     if (curvature == 0.0)
       return direction.dot(point - begin);
-    const Vector3d from = (point - centre()) * (curvature > 0.0 ? 1.0 : -1.0);
-    return std::atan2(from.dot(direction), -from.dot(left())) / std::abs(curvature);
+    const Vector3d from = point - centre();
+    return std::atan2(from.dot(direction), std::copysign(1.0, -curvature) * from.dot(left())) / std::abs(curvature);
   }
 };
 
@@ -127,10 +130,9 @@ Offset offsetFrom(const std::vector<Piece>& pieces, const Vector3d& point)
   return nearest;
 }
 
-/** Potential of the walls on a node: ½ k (distance − clearance)², and of the plane. */
-NodePotential wallPotential(const std::vector<Piece>& pieces, double clearance, double length, const Vector3d& point)
+/** Potential of the walls on a node: ½ k (distance − clearance)², and of the plane. @param k stiffness [N/m] */
+NodePotential wallPotential(const std::vector<Piece>& pieces, double clearance, double k, const Vector3d& point)
 {
-  const double k = kWallStiffness * length;
   NodePotential sum;
   const Offset offset = offsetFrom(pieces, point);
   const double excess = offset.distance - clearance;
@@ -161,6 +163,9 @@ public:
   ChannelState solve()
   {
     loadTip();
+    for (wall_stiffness_ = kFirstStiffness; wall_stiffness_ < kWallStiffness; wall_stiffness_ *= kStiffening)
+      settle();
+    wall_stiffness_ = kWallStiffness;
     settle();
     for (int round = 0; problem_.advance != 0.0 && problem_.friction > 0.0; ++round)
     {
@@ -215,14 +220,17 @@ private:
   /** Normal force of the wall on a node. */
   Vector3d normal(int node) const
   {
-    Vector3d force = -wallPotential(pieces_, clearanceOf(node), lengthOf(node), equilibrium_.position[node]).gradient;
+    Vector3d force =
+        -wallPotential(pieces_, clearanceOf(node), wall_stiffness_ * lengthOf(node), equilibrium_.position[node])
+             .gradient;
     force.z() = 0.0;
     return force;
   }
 
   void loadTip() { force_.back() = -problem_.tip_force * tangent(nodes_ - 1); }
 
-  /** Sets the friction of every node. @return change of all friction forces over their sum */
+  /** Moves the friction of every node towards its limit, by a share: contacts that alternate between two nodes would
+   *  alternate for ever. @return distance of all friction forces from their limits over the sum of these */
   double loadFriction()
   {
     double change = 0.0;
@@ -235,7 +243,7 @@ private:
         wanted -= problem_.tip_force * axial;
       change += (wanted - force_[i]).norm();
       sum += wanted.norm();
-      force_[i] = wanted;
+      force_[i] += kRelaxation * (wanted - force_[i]);
     }
     return change / sum;
   }
@@ -259,7 +267,7 @@ private:
     problem.force = force_;
     problem.tolerance = kTolerance;
     problem.node_potential = [this](int node, const Vector3d& position)
-    { return wallPotential(pieces_, clearanceOf(node), lengthOf(node), position); };
+    { return wallPotential(pieces_, clearanceOf(node), wall_stiffness_ * lengthOf(node), position); };
     const EquilibriumSolver solver(problem);
     if (!solver.solve(equilibrium_))
       throw std::runtime_error("channelStatics: no equilibrium at " + std::to_string(1e3 * problem_.inserted_length) +
@@ -287,6 +295,7 @@ private:
   int nodes_;
   Equilibrium equilibrium_;
   std::vector<Vector3d> force_;
+  double wall_stiffness_ = kWallStiffness;  ///< per length of wire [N/m²]
   double hand_force_ = 0.0;
   double energy_ = 0.0;
 };
@@ -324,8 +333,7 @@ double trackingForce(const ChannelProblem& problem)
   return elastic + problem.advance * problem.friction * normal;
 }
 
-ChannelTorque channelTorque(const ChannelState& state, double friction, double radius, double torsional_stiffness,
-                            double ahead)
+ChannelTorque channelTorque(const ChannelState& state, double friction, double radius, double torsional_stiffness)
 {
   ChannelTorque result;
   const double share = friction / std::sqrt(1.0 + friction * friction);
@@ -333,7 +341,7 @@ ChannelTorque channelTorque(const ChannelState& state, double friction, double r
   {
     const double torque = share * radius * state.normal_force[i];
     result.torque += torque;
-    result.lag += torque * (state.arc_length[i] + ahead) / torsional_stiffness;
+    result.lag += torque * state.arc_length[i] / torsional_stiffness;
   }
   return result;
 }

@@ -59,9 +59,7 @@ struct ChannelTorque
 /** The friction of a turning wire is circumferential: μ N/√(1 + μ²) at a contact that without friction has N.
  *  @param state of the wire at rest, without friction
  *  @param radius of the wire [m]
- *  @param torsional_stiffness GJ [N·m²]
- *  @param ahead length of wire before the introducer's mouth that twists too [m] */
-ChannelTorque channelTorque(const ChannelState& state, double friction, double radius, double torsional_stiffness,
-                            double ahead);
+ *  @param torsional_stiffness GJ [N·m²] */
+ChannelTorque channelTorque(const ChannelState& state, double friction, double radius, double torsional_stiffness);
 
 }  // namespace endovascular_sim::benchmark

@@ -69,8 +69,7 @@ BenchTest torqueTest(const instrument::Instrument& instrument, const SpecimenCho
   problem.inserted_length = session.observe().hand(0).insertion;
   problem.advance = 0.0;
   const ChannelState statics = channelStatics(problem);
-  const ChannelTorque expected =
-      channelTorque(statics, friction, section.radius, section.torsional_stiffness, scene.solver.guide_length);
+  const ChannelTorque expected = channelTorque(statics, friction, section.radius, section.torsional_stiffness);
   for (const double at : {0.0, turns.lines[0].points.back().first})
     turns.lines[1].points.emplace_back(at, expected.lag / units::kDegree);
 
