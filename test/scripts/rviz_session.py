@@ -14,8 +14,10 @@ from endovascular_sim.msg import ProcedureStep, RodStateVisual, SessionProgress
 PLACES = {"work": {"start": (44, 100), "pause": (129, 100), "reset": (213, 100), "record": (297, 100),
                    "push": (107, 181), "pull": (275, 181), "twist_left": (107, 216), "twist_right": (275, 216),
                    "overview": (86, 360), "tip": (201, 360), "in_vessel": (288, 360), "focus": (250, 264)},
-          "lesson": {"start": (44, 38), "pause": (127, 38), "reset": (210, 38), "record": (293, 38), "repeat_step": (293, 62),
-                     "push": (85, 119), "pull": (251, 119), "twist_left": (85, 154), "twist_right": (251, 154), "focus": (90, 201)}}
+          # Of both widths of the panel, with and without a balloon; the last two of an instrument with a balloon.
+          "lesson": {"start": (44, 38), "pause": (127, 38), "reset": (230, 38), "record": (327, 38), "repeat_step": (327, 66),
+                     "push": (85, 127), "pull": (251, 127), "twist_left": (85, 162), "twist_right": (251, 162), "focus": (90, 210),
+                     "pressure": (30, 273), "set_pressure": (135, 273)}}
 
 
 def run(*command, seconds=20, **options):
@@ -132,6 +134,15 @@ class RvizSession:
             self.wait(seconds, condition, name)
         finally:
             run("xdotool", "keyup", key)
+
+    def set_pressure(self, atmospheres):
+        """Types the pressure of the chosen balloon."""
+        self.mouse("pressure", "click", "--repeat", "3", "1")
+        run("xdotool", "key", "ctrl+a")
+        run("xdotool", "type", "%.1f" % atmospheres)
+        run("xdotool", "key", "Tab")
+        self.click("set_pressure")
+        self.click("focus")
 
     def picture(self, name):
         run("import", "-window", "root", os.path.join(os.environ.get("ENDOVASCULAR_PICTURES", self.folder), name + ".png"))

@@ -12,6 +12,11 @@ PROGRESS = 2e-3  # motion of a tip that counts as progress [m]
 LIMIT = 240.0  # wall time of one motion [s]
 
 
+def arc_lengths(points):
+    """Arc length of each point of a polyline from the first one [m]."""
+    return numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(points, axis=0), axis=1))])
+
+
 class Trainee:
     """@param session RvizSession of a lesson
     @param procedure path of its procedure
@@ -83,10 +88,10 @@ class Trainee:
         ends = [points[0], points[-1]]
         near = min((0, 1), key=lambda end: numpy.linalg.norm(ends[end] - self.tip(k)))
         ordered = points if near == 0 else points[::-1]
-        inside = ordered[min(len(ordered) - 1, 6)]
-        for _ in range(6):
+        inside = ordered[min(len(ordered) - 1, numpy.searchsorted(arc_lengths(ordered), 0.012))]
+        for _ in range(8):
             angle, distance = self.bend_to(inside)
-            if distance > 0.04 or abs(angle) < 0.4:
+            if distance > 0.08 or abs(angle) < 0.4:
                 return
             self.turn(k, 0.7 * angle)
             rospy.sleep(0.5)
