@@ -24,6 +24,7 @@ struct Bowl
 {
   Bowl() : coarse(discretise(wire, positions())), stepper(coarse, boundary(), environment(), StepperSettings())
   {
+    floor.stiffness = 5e6;
     state = stepper.initialState(0.0, 0.0);
     for (int i = 0; i < coarse.nodes(); ++i)
     {
@@ -102,8 +103,7 @@ struct Bowl
   Discretisation coarse;
   KktStepper stepper;
   State state;
-  PlaneWall floor(0.0);
-  floor.stiffness = 5e6;
+  PlaneWall floor{0.0};
   std::uint64_t steps = 0;
 };
 
