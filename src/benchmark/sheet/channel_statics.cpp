@@ -19,9 +19,10 @@ using Eigen::Vector3d;
 constexpr double kEdge = 0.5e-3;         // m
 constexpr double kTipLength = 1e-3;      // m, length of wire that the contact of the tip represents
 constexpr double kTolerance = 1e-9;      // of an equilibrium, over the length of the wire
-constexpr int kMostRounds = 200;         // of the friction
-constexpr double kRelaxation = 0.5;      // of the friction in a round
-constexpr double kFrictionError = 1e-3;  // of the friction forces at the end, over their sum
+constexpr int kRounds = 60;              // of the friction; the force on the hand is the mean of the second half
+constexpr double kRelaxation = 0.3;      // of the friction in a round
+constexpr double kFrictionError = 1e-3;  // of the sum of the friction forces that ends the rounds
+constexpr double kLargestError = 0.05;   // of this sum in the last round
 constexpr double kTravel = 1e-3;         // m, of the central difference of the energy
 constexpr double kWallStiffness = 2e8;   // per length of wire [N/m²]: 5 µm at 1 N/mm
 constexpr double kFirstStiffness = 2e5;  // of the first equilibrium, which begins far away [N/m²]
@@ -167,14 +168,21 @@ public:
       settle();
     wall_stiffness_ = kWallStiffness;
     settle();
-    for (int round = 0; problem_.advance != 0.0 && problem_.friction > 0.0; ++round)
+    double sum = 0.0;  // of the force on the hand
+    int summed = 0;
+    for (int round = 0; round < kRounds && problem_.advance != 0.0 && problem_.friction > 0.0; ++round)
     {
-      if (loadFriction() < kFrictionError)
-        break;
-      if (round == kMostRounds)
+      const double error = loadFriction();
+      if (error > kLargestError && round + 1 == kRounds)
         throw std::runtime_error("channelStatics: friction and normal forces do not agree");
+      if (error < kFrictionError)
+        break;
       settle();
+      sum += round >= kRounds / 2 ? hand_force_ : 0.0;
+      summed += round >= kRounds / 2 ? 1 : 0;
     }
+    if (summed > 0)
+      hand_force_ = sum / summed;
     return state();
   }
 
@@ -230,22 +238,21 @@ private:
   void loadTip() { force_.back() = -problem_.tip_force * tangent(nodes_ - 1); }
 
   /** Moves the friction of every node towards its limit, by a share: contacts that alternate between two nodes would
-   *  alternate for ever. @return distance of all friction forces from their limits over the sum of these */
+   *  alternate for ever. @return distance of the sum of all friction forces from its limit, over this limit */
   double loadFriction()
   {
-    double change = 0.0;
-    double sum = std::numeric_limits<double>::min();
+    double present = 0.0;
+    double limit = std::numeric_limits<double>::min();
     for (int i = 2; i < nodes_; ++i)
     {
       const Vector3d axial = tangent(i);
-      Vector3d wanted = -problem_.advance * problem_.friction * normal(i).norm() * axial;
-      if (i + 1 == nodes_)
-        wanted -= problem_.tip_force * axial;
-      change += (wanted - force_[i]).norm();
-      sum += wanted.norm();
+      const Vector3d other = i + 1 == nodes_ ? Vector3d(-problem_.tip_force * axial) : Vector3d::Zero();
+      const Vector3d wanted = other - problem_.advance * problem_.friction * normal(i).norm() * axial;
+      present += (force_[i] - other).norm();
+      limit += (wanted - other).norm();
       force_[i] += kRelaxation * (wanted - force_[i]);
     }
-    return change / sum;
+    return std::abs(limit - present) / limit;
   }
 
   void settle()
