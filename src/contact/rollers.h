@@ -23,8 +23,8 @@ struct Roller
 /** Contact sets of a wire with rollers, by the exact distance between its edges and their axes.
  *
  *  A feature is a local minimum of the distance along the wire, inside an edge or at a node. Without friction a wire
- *  is free along itself. Where a wire bends around a roller there is one minimum; where it bends away on both sides of
- *  a node there are two, one in each edge. */
+ *  is free along itself. A node that bulges towards a roller has one minimum; where the wire bends around the roller,
+ *  both edges of the node have one. */
 class Rollers : public ContactSource
 {
 public:
