@@ -55,8 +55,7 @@ TEST(Rollers, TouchAWireInsideAnEdge)
 
 TEST(Rollers, TouchAWireThatBulgesTowardsThemAtANode)
 {
-  const ContactSet set =
-      detected(oneRoller({0, -6.4e-3, 0}), queryOf({{-2e-3, 2e-4, 0}, {0, 0, 0}, {2e-3, 2e-4, 0}}));
+  const ContactSet set = detected(oneRoller({0, -6.4e-3, 0}), queryOf({{-2e-3, 2e-4, 0}, {0, 0, 0}, {2e-3, 2e-4, 0}}));
   ASSERT_EQ(set.features.size(), 1U);
   EXPECT_EQ(set.features[0].edge + set.features[0].parameter, 6.0);
   EXPECT_NEAR(set.features[0].gap, 0.0, 1e-15);

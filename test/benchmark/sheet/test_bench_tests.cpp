@@ -72,8 +72,9 @@ TEST(DataSheet, ListsRowsWithTheirReferences)
   BenchTest test;
   test.name = "scene";
   test.heading = "Test";
-  test.rows = {
-      {"force, at 1 mm", 1.02, "N", 1.0, "beam"}, {"whip", 0.1, "°", 0.0, "none turns", true}, {"free", 2.0, "N", std::nan(""), ""}};
+  test.rows = {{"force, at 1 mm", 1.02, "N", 1.0, "beam"},
+               {"whip", 0.1, "°", 0.0, "none turns", true},
+               {"free", 2.0, "N", std::nan(""), ""}};
   sheet.tests = {test};
   EXPECT_EQ(csvOf(sheet),
             "test,quantity,value,unit,reference,deviation,method\n"

@@ -92,7 +92,8 @@ TEST(RollerElastica, BecomesTheBeamAtSmallDeflection)
 {
   const ThreePointBend knife{0.04, 3e-4, 0.0};
   EXPECT_NEAR(elasticaForce(knife, 4e-6) / beamForce(knife, 4e-6), 1.0, 1e-6);
-  // The contacts move inwards by ρ θ and down by ½ ρ θ², θ = 3 δ/L: the force grows by (18 − 4.5) ρ δ/L² in the first order.
+  // The contacts move inwards by ρ θ and down by ½ ρ θ², θ = 3 δ/L: the force grows by (18 − 4.5) ρ δ/L² in the first
+  // order.
   const ThreePointBend rollers{0.04, 3e-4, 6.8e-3};
   const double deflection = 4e-6;
   EXPECT_NEAR(elasticaForce(rollers, deflection) / beamForce(rollers, deflection) - 1.0,
