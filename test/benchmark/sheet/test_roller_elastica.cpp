@@ -32,7 +32,7 @@ Shape half(double stiffness, double middle_moment, double vertical, double horiz
   const auto moved = [](const Shape& s, const Shape& by, double h) -> Shape {
     return {s.x + h * by.x, s.y + h * by.y, s.slope + h * by.slope, s.moment + h * by.moment};
   };
-  double h = 2e-6;
+  double h = 2e-5;
   while (h > 1e-13)
   {
     const Shape a = slope(at);
