@@ -6,7 +6,7 @@ import endovascular_sim
 
 from .. import style
 from . import wires
-from .row import Measurement, number
+from .row import Measurement, below, number
 
 PUSH = 3500         # steps until the tip has passed the bend of config/scenes/tube.yaml
 SHOWN = 7           # frames of the tip in the picture
@@ -36,9 +36,9 @@ def frame_of_the_tip(folder):
     axes.set(xlim=(-10, 65), ylim=(0, 95), xlabel="x [mm]", ylabel="z, along the introducer [mm]", title="Frames of the tip on its way through the bend")
     axes.legend(loc="lower right")
     style.save(figure, folder / "fig2.png")
-    return [Measurement("largest error of orthonormality of (tangent, d1, d2) [1]", "0", number(error, 1), "< 1e-12", error < 1e-12,
+    return [Measurement("largest error of orthonormality of (tangent, d1, d2) [1]", "0", below(error, 1e-12), "< 1e-12", error < 1e-12,
                         error < 1e-12),
-            Measurement("largest angle between the frame's tangent and the last edge [rad]", "0", number(deviation, 1), "< 1e-12",
+            Measurement("largest angle between the frame's tangent and the last edge [rad]", "0", below(deviation, 1e-12), "< 1e-12",
                         deviation < 1e-12, deviation < 1e-12)]
 
 

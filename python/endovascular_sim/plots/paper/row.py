@@ -43,6 +43,11 @@ def number(value, digits=3):
     return "%.*g" % (digits, value)
 
 
+def below(value, limit):
+    """Text of a number that is round-off: only that it is below a limit."""
+    return "< %g" % limit if value < limit else number(value, 1)
+
+
 def series(values, digits=3):
     """Text of numbers."""
     return ", ".join(number(value, digits) for value in values)
