@@ -47,7 +47,7 @@ TEST_P(DamagedMesh, IsReadWithValidIndicesOrRejected)
   const std::string small = meshFile(capsule(16, 10), GetParam());
   const std::string large = meshFile(capsule(64, 38), GetParam());
   const TemporaryFolder folder;
-  const std::string name = "damaged" + extensionOf(GetParam());
+  const std::string name = std::string("damaged") + extensionOf(GetParam());
   test::RandomDamage damage(1, kNumbers, 16);
   int accepted = 0;
   for (int k = 0; k < kMutations; ++k)
@@ -81,7 +81,7 @@ TEST_P(DamagedMesh, IsAcceptedUndamaged)
   ASSERT_LE(mesh.triangles.size(), 5000U);
   const TemporaryFolder folder;
   const geometry::TriangleMesh read =
-      readMesh(folder.write("undamaged" + extensionOf(GetParam()), meshFile(mesh, GetParam())), 1e-3);
+      readMesh(folder.write(std::string("undamaged") + extensionOf(GetParam()), meshFile(mesh, GetParam())), 1e-3);
   EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
   EXPECT_EQ(read.vertices.size(), mesh.vertices.size());
   EXPECT_TRUE(checkMesh(read).clean());

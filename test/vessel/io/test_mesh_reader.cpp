@@ -69,7 +69,8 @@ TEST_P(EverySpace, OfSlicerIsTurnedToThePatientFrame)
   const TemporaryFolder folder;
   const auto read = [&](const geometry::TriangleMesh& mesh, const std::string& header, MeshRemarks& remarks)
   {
-    const std::string file = folder.write("a" + extensionOf(GetParam()), withHeader(mesh, GetParam(), header));
+    const std::string file =
+        folder.write(std::string("a") + extensionOf(GetParam()), withHeader(mesh, GetParam(), header));
     return readMesh(file, 1e-3, {}, &remarks).hash();
   };
   MeshRemarks of_lps;
@@ -91,7 +92,7 @@ TEST(MeshReader, ReadsAnObjAndAPlyAfterAByteOrderMark)
   for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kAsciiPly})
   {
     const std::string content = "\xEF\xBB\xBF" + meshFile(capsule(16, 10), format);
-    EXPECT_EQ(errorMessage(folder.write("a" + extensionOf(format), content)), "");
+    EXPECT_EQ(errorMessage(folder.write(std::string("a") + extensionOf(format), content)), "");
   }
 }
 
