@@ -170,8 +170,8 @@ std::string textOfSteps(const BagSurvey& survey)
 
 std::string textOfUses(const BagSurvey& survey)
 {
-  std::string text = std::string("show: ") + (survey.shows ? "yes" : "no") + "; report: " +
-                     (survey.reports ? "yes" : "no") + "; recompute: ";
+  std::string text = std::string("show: ") + (survey.shows ? "yes" : "no") +
+                     "; report: " + (survey.reports ? "yes" : "no") + "; recompute: ";
   if (!survey.recomputed_to)
     text += "no";
   else
@@ -252,12 +252,9 @@ nlohmann::ordered_json toJson(const BagSurvey& survey)
   json["refusal"] = survey.refusal.empty() ? Json(nullptr) : Json(survey.refusal);
   json["damage"] = survey.damage.empty() ? Json(nullptr) : Json(survey.damage);
   if (survey.info)
-    json["session"] = {{"scene", survey.info->scene_name},
-                       {"version", survey.info->software_version},
-                       {"commit", survey.info->commit},
-                       {"physics", survey.info->physics_number},
-                       {"time_step", survey.info->time_step},
-                       {"continues_from_state", survey.state_bytes > 0}};
+    json["session"] = {{"scene", survey.info->scene_name},    {"version", survey.info->software_version},
+                       {"commit", survey.info->commit},       {"physics", survey.info->physics_number},
+                       {"time_step", survey.info->time_step}, {"continues_from_state", survey.state_bytes > 0}};
   json["steps"] = {{"number", survey.steps},
                    {"first", survey.first_step},
                    {"last", survey.last_step},
@@ -286,10 +283,10 @@ std::string textOf(const BagSurvey& survey)
   if (!survey.refusal.empty())
     return survey.refusal + "\n  " + textOfUses(survey) + "\n";
   std::string text = survey.file + ": ";
-  text += survey.info ? "session of " + survey.info->scene_name + ", version " + survey.info->software_version +
-                            ", commit " + survey.info->commit + ", physics " +
-                            std::to_string(survey.info->physics_number)
-                      : "no session/info";
+  text += survey.info
+              ? "session of " + survey.info->scene_name + ", version " + survey.info->software_version + ", commit " +
+                    survey.info->commit + ", physics " + std::to_string(survey.info->physics_number)
+              : "no session/info";
   text += "\n  " + textOfSteps(survey) + (survey.state_bytes > 0 ? "; continues from a saved state" : "") + "\n";
   text += "  " + (survey.damage.empty() ? "no damage" : "damaged: " + survey.damage) + "\n";
   for (const auto& [name, topic] : survey.topics)

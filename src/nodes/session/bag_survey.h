@@ -45,8 +45,8 @@ struct BagSurvey
   std::vector<StepGap> gaps;
   std::uint64_t state_bytes = 0;  ///< of the saved state from which the recording continues; 0: the scene's beginning
 
-  bool shows = false;                      ///< replay.launch shows the session
-  bool reports = false;                    ///< reports can be made without a computation
+  bool shows = false;                          ///< replay.launch shows the session
+  bool reports = false;                        ///< reports can be made without a computation
   std::optional<std::uint64_t> recomputed_to;  ///< last step up to which `replay` can compute the session again
   std::string obstacle;                        ///< reason for which it computes not every step; empty without one
 

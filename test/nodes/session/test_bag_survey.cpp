@@ -116,10 +116,7 @@ protected:
   }
 
   std::string content() const { return contentOf(file); }
-  void replace(const std::string& bytes) const
-  {
-    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
-  }
+  void replace(const std::string& bytes) const { std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes; }
 
   /** Expects that a replay does not claim that every step is equal. */
   void expectNoCompleteReplay() const
@@ -173,7 +170,9 @@ TEST_F(Survey, OfABagThatIsCutOffNamesTheStepUpToWhichItCanBeComputed)
 
 TEST_F(Survey, OfABagWithoutEndIsNotComplete)
 {
-  record({{}, false, true});
+  Faults faults;
+  faults.without_end = true;
+  record(faults);
   const BagSurvey survey = surveyBag(file);
   EXPECT_FALSE(survey.isComplete());
   EXPECT_NE(survey.obstacle.find("has no end"), std::string::npos) << survey.obstacle;
@@ -182,7 +181,9 @@ TEST_F(Survey, OfABagWithoutEndIsNotComplete)
 
 TEST_F(Survey, OfABagWithAHoleNamesTheMissingSteps)
 {
-  record({{12, 13, 14, 20}});
+  Faults faults;
+  faults.missing = {12, 13, 14, 20};
+  record(faults);
   const BagSurvey survey = surveyBag(file);
   ASSERT_EQ(survey.gaps.size(), 2U);
   EXPECT_EQ(survey.gaps[0].first, 12U);
@@ -219,7 +220,9 @@ TEST_F(Survey, OfABagWithZerosIsDamaged)
 
 TEST_F(Survey, OfSwappedStepsNamesTheOrder)
 {
-  record({{}, true});
+  Faults faults;
+  faults.swapped = true;
+  record(faults);
   const BagSurvey survey = surveyBag(file);
   EXPECT_EQ(survey.steps, kSteps);
   EXPECT_GT(survey.disordered_steps, 0U);
@@ -228,7 +231,9 @@ TEST_F(Survey, OfSwappedStepsNamesTheOrder)
 
 TEST_F(Survey, OfAnotherVersionNamesTheTopic)
 {
-  record({{}, false, false, true});
+  Faults faults;
+  faults.with_steps_of_another = true;
+  record(faults);
   const BagSurvey survey = surveyBag(file);
   EXPECT_TRUE(survey.shows);
   EXPECT_FALSE(survey.recomputed_to);
@@ -238,7 +243,9 @@ TEST_F(Survey, OfAnotherVersionNamesTheTopic)
 
 TEST_F(Survey, OfASceneWithAnUnknownKeyNamesTheKey)
 {
-  record({{}, false, false, false, "colour_of_the_wall: red\n"});
+  Faults faults;
+  faults.added_to_scene = "colour_of_the_wall: red\n";
+  record(faults);
   const BagSurvey survey = surveyBag(file);
   EXPECT_FALSE(survey.recomputed_to);
   EXPECT_NE(survey.obstacle.find("colour_of_the_wall"), std::string::npos) << survey.obstacle;
