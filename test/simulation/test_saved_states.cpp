@@ -161,6 +161,13 @@ TEST(SavedStates, ThatAreDamagedOrOfAnotherSceneAreRefused)
 constexpr std::size_t kFormatAt = 8;
 constexpr std::size_t kWriterAt = 12;
 
+std::uint32_t formatOf(const std::string& state)
+{
+  std::uint32_t format = 0;
+  std::memcpy(&format, &state[kFormatAt], sizeof format);
+  return format;
+}
+
 /** The state with another format and the hash of its new bytes. */
 std::string withFormat(std::string state, std::uint32_t format)
 {
@@ -188,7 +195,7 @@ TEST(SavedStates, OfOtherFormatsAreRefusedWithTheVersionThatWroteThem)
   EXPECT_NE(old.find("has format 4, written by endovascular_sim 0.1.0, commit ca765d6 or a later one"),
             std::string::npos)
       << old;
-  const std::string later = refusalOf(bench, withFormat(state, 9));
+  const std::string later = refusalOf(bench, withFormat(state, formatOf(state) + 1));
   EXPECT_NE(later.find(std::string("written by endovascular_sim ") + version() + ", commit " + commit()),
             std::string::npos)
       << later;
@@ -212,9 +219,7 @@ TEST(SavedStates, OfAnotherPhysicsAreRefusedWithTheVersionThatWroteThem)
   std::memcpy(&letters, &state[kWriterAt], sizeof letters);
   const int physics = kPhysicsNumber + 1;
   std::memcpy(&state[kWriterAt + sizeof letters + letters], &physics, sizeof physics);
-  std::uint32_t format = 0;
-  std::memcpy(&format, &state[kFormatAt], sizeof format);
-  const std::string refusal = refusalOf(bench, withFormat(state, format));
+  const std::string refusal = refusalOf(bench, withFormat(state, formatOf(state)));
   const std::string writer = "physics number " + std::to_string(physics) + " by endovascular_sim " + version();
   EXPECT_NE(refusal.find(writer), std::string::npos) << refusal;
 }
