@@ -14,6 +14,8 @@ namespace endovascular_sim::yaml
 namespace
 {
 
+constexpr int kMostDocuments = 100;  ///< of one text, all but one empty
+
 /** Counts the values of a YAML text with its aliases expanded, without building them. */
 class ValueCounter : public YAML::EventHandler
 {
@@ -181,8 +183,13 @@ YAML::Node parseYamlText(const std::string& text, const std::string& origin, con
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     ValueCounter counter(origin, where);
-    while (parser.HandleNextDocument(counter))
-      continue;
+    // The parser does not pass some misplaced signs, such as a comma at the beginning of a text: an empty document then
+    // begins there again and again.
+    for (int documents = 0; parser.HandleNextDocument(counter); ++documents)
+      if (documents == kMostDocuments)
+        throw InputError(origin, where,
+                         "is not valid YAML: it begins " + std::to_string(documents) +
+                             " empty documents; check the first sign of each line, which may be no comma");
     return YAML::Load(text);
   }
   catch (const YAML::Exception& error)

@@ -59,6 +59,12 @@ TEST(YamlText, RefusesASecondDocumentUnlessItIsEmpty)
   EXPECT_NE(refusalOf("a: 1\n--- text\n").find("second document"), std::string::npos);
 }
 
+TEST(YamlText, RefusesACommaAtTheBeginning)
+{
+  for (const char* text : {", a", "# comment\n, a\nname: b\n"})
+    EXPECT_NE(refusalOf(text).find("comma"), std::string::npos) << text;
+}
+
 TEST(YamlText, RefusesMergeKeysByName)
 {
   EXPECT_EQ(refusalOf("a: &a {x: 1}\nb:\n  <<: *a\n"),

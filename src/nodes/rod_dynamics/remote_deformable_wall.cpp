@@ -87,7 +87,8 @@ void RemoteDeformableWall::replace(std::uint8_t operation, const std::string& st
   waitForDisplacements();
   const std::uint64_t before = version_;
   const WallState answer = call(operation, state);
-  version_ = detected_ = answer.response.version;
+  version_ = answer.response.version;
+  detected_ = answer.response.base;
   received_ = version_;
   at_risk_ = answer.response.at_risk != 0;
   makeContactFollow(before);

@@ -194,6 +194,7 @@ bool VesselServerNode::replaceWall(WallState::Request& request, WallState::Respo
     response.message = error.what();
   }
   response.version = wall_->version();
+  response.base = wall_->base();
   response.at_risk = wall_->atRisk() ? 1 : 0;
   return true;
 }

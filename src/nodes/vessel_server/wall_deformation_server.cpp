@@ -63,6 +63,12 @@ std::uint64_t WallDeformationServer::version() const
   return history_.newest();
 }
 
+std::uint64_t WallDeformationServer::base() const
+{
+  const Guard lock(mutex_);
+  return history_.base();
+}
+
 bool WallDeformationServer::atRisk() const
 {
   const Guard lock(opening_mutex_);

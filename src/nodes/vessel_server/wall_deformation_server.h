@@ -36,6 +36,7 @@ public:
   Snapshot snapshot() const;
 
   std::uint64_t version() const;  ///< newest version
+  std::uint64_t base() const;     ///< version of the snapshot's mesh; after load() that of contact detection
   bool atRisk() const;            ///< true where the stretch of the wall is so large that it may tear
 
   /** State of the wall, with the bytes of simulation::wallState().

@@ -81,6 +81,7 @@ TEST(WallDeformationServer, ContinuesFromAStateWithTheSameDisplacements)
   {
     resumed->load(state);
     EXPECT_EQ(resumed->version(), 5U);
+    EXPECT_EQ(resumed->base(), 4U);
     EXPECT_EQ(resumed->save(4), state);
     ASSERT_TRUE(resumed->press(loadOf(6), displacement));
     EXPECT_EQ(displacement.index, expected.index);
