@@ -70,14 +70,14 @@ session.step(n=10**6)
 assert session.trajectory_hash == sys.argv[1], session.trajectory_hash
 PYTHON
 
-# Of the installed programs, only nodes, the two tools that speak ROS and the example of a client link it.
+# Of the installed programs, only nodes, the three tools that speak ROS and the example of a client link it.
 for program in "$installed"/lib/endovascular_sim/*; do
   name=$(basename "$program")
   [ "$(head -c 4 "$program" | tail -c 3)" = ELF ] || continue
   uses=no
   if ldd "$program" | grep -q libroscpp; then uses=yes; fi
   case "$name" in
-    contact|fluoroscopy|haptic_device|robot|rod_dynamics|session|vessel_server|visualization|replay|device_simulator|push_to_force) wanted=yes ;;
+    contact|fluoroscopy|haptic_device|robot|rod_dynamics|session|vessel_server|visualization|bag_check|replay|device_simulator|push_to_force) wanted=yes ;;
     *) wanted=no ;;
   esac
   [ $uses = $wanted ] || { echo "$name links ROS: $uses, expected: $wanted"; exit 1; }
