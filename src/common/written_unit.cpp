@@ -49,7 +49,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
     text.replace(at, from.size(), to);
 }
 
-/** Name of a unit without special characters, by which units are compared. */
+/** Unit in ASCII, without blanks and signs of multiplication: equal units have equal texts. */
 std::string plain(std::string unit)
 {
   const std::vector<std::pair<std::string, std::string>> characters = {
