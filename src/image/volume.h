@@ -12,8 +12,9 @@ namespace endovascular_sim::image
 /** Meaning of the values of a volume. */
 enum class Modality : std::uint32_t
 {
-  kCt = 1,     ///< Hounsfield units
-  kOther = 2,  ///< e.g. magnetic resonance: no unit
+  kCt = 1,      ///< Hounsfield units
+  kOther = 2,   ///< e.g. magnetic resonance: no unit
+  kLabels = 3,  ///< chosen labels of a label map, numbered 1, 2, … in the order of the choice; 0 elsewhere
 };
 
 /** Image of a patient: a value at each voxel of a grid. */

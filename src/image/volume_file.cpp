@@ -69,7 +69,7 @@ Volume volumeOf(const Header& header, const std::string& file)
     volume.grid.axes(k % 3, k / 3) = header.axes[k];
   requireValid(volume.grid, file);
   volume.modality = static_cast<Modality>(header.modality);
-  if (volume.modality != Modality::kCt && volume.modality != Modality::kOther)
+  if (volume.modality != Modality::kCt && volume.modality != Modality::kOther && volume.modality != Modality::kLabels)
     throw InputError(file, "modality", "is " + std::to_string(header.modality) + "; " + kRemedy);
   volume.scale = header.scale;
   if (!std::isfinite(volume.scale) || volume.scale <= 0.0)

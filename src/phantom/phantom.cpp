@@ -78,10 +78,8 @@ Slice noiseSlice(const PhantomSettings& settings, int k, const std::vector<float
 class Synthesis
 {
 public:
-  Synthesis(const vessel::Anatomy& anatomy, const PhantomSettings& settings)
-    : settings_(settings),
-      threads_(threadCount(settings.threads)),
-      painter_(anatomy, settings.grid, settings.modality, settings.wall_thickness)
+  Synthesis(const SlicePainter& painter, const PhantomSettings& settings)
+    : settings_(settings), threads_(threadCount(settings.threads)), painter_(painter)
   {
     for (int axis = 0; axis < 3; ++axis)
       spread_.push_back(gaussianKernel(settings.point_spread / settings.grid.spacing[axis]));
@@ -124,7 +122,7 @@ private:
     {
       const int first = tissue_.end();
       std::vector<Slice> slab(static_cast<std::size_t>(std::min(kSlab, settings_.grid.size.z() - first)));
-      painter_.paint(first, slab, threads_);
+      painter_(first, slab, threads_);
       parallelFor(slab.size(), threads_,
                   [&](std::size_t k)
                   { blurSlice(slab[k], settings_.grid.size.x(), settings_.grid.size.y(), spread_[0], spread_[1]); });
@@ -169,7 +167,7 @@ private:
 
   PhantomSettings settings_;
   int threads_;
-  TissuePainter painter_;
+  const SlicePainter& painter_;
   std::vector<std::vector<float>> spread_;  ///< kernels of the point spread along i, j and k
   std::vector<float> grain_;
   double noise_gain_ = 0.0;
@@ -189,15 +187,24 @@ image::VolumeGrid gridOfBox(const Eigen::Vector3d& low, const Eigen::Vector3d& h
   return grid;
 }
 
-image::Volume makePhantom(const vessel::Anatomy& anatomy, const PhantomSettings& settings,
-                          const ProgressReport& progress)
+image::Volume blurredImage(const SlicePainter& painter, const PhantomSettings& settings, const ProgressReport& progress)
 {
   image::requireValid(settings.grid, "phantom");
   requireRange("point spread", 1e3 * settings.point_spread, 0.0, 10.0, " mm");
   requireRange("noise", settings.noise, 0.0, 1000.0, "");
   requireRange("noise grain", settings.noise_grain, 0.0, 5.0, " voxels");
   requireRange("wall thickness", 1e3 * settings.wall_thickness, 0.0, 5.0, " mm");
-  return Synthesis(anatomy, settings).run(progress);
+  return Synthesis(painter, settings).run(progress);
+}
+
+image::Volume makePhantom(const vessel::Anatomy& anatomy, const PhantomSettings& settings,
+                          const ProgressReport& progress)
+{
+  image::requireValid(settings.grid, "phantom");
+  const TissuePainter painter(anatomy, settings.grid, settings.modality, settings.wall_thickness);
+  return blurredImage([&painter](int first, std::vector<Slice>& slices, int threads)
+                      { painter.paint(first, slices, threads); },
+                      settings, progress);
 }
 
 }  // namespace endovascular_sim::phantom

@@ -67,6 +67,7 @@ void reverse(LumenBranch& branch)
     section.tangent = -section.tangent;
     section.w = -section.w;
     std::reverse(section.radii.begin() + 1, section.radii.end());
+    std::reverse(section.ends.begin() + 1, section.ends.end());
   }
 }
 
@@ -207,7 +208,7 @@ private:
           (path[k] - parent.back().centre).norm() > depth)  // not at a flat end of the parent
         begin = k;
     path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(begin));
-    branches_[child].sections = fitLumen(scan_, path, branch.largest_radius, settings_);
+    branches_[child].sections = fitLumen(scan_, path, RayReach(branch.largest_radius, branch.sections), settings_);
   }
 
   /** Centres of the parent before a section, from a distance up to the section. */

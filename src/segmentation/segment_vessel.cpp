@@ -1,94 +1,75 @@
 #include "segmentation/segment_vessel.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
-#include "common/error.h"
 #include "common/numerics/parallel_for.h"
 #include "common/text/format.h"
+#include "segmentation/branch_path.h"
+#include "segmentation/click_order.h"
 #include "segmentation/lumen/click_check.h"
-#include "segmentation/lumen/minimal_path.h"
+#include "segmentation/lumen/star_shape.h"
+#include "segmentation/other_lumens.h"
 #include "segmentation/path_check.h"
+#include "segmentation/wider_lumen.h"
 
 namespace endovascular_sim::segmentation
 {
 namespace
 {
 
-constexpr double kWidestWithLimit = 0.01;  ///< radius up to which wide regions are closed to a path [m]
-constexpr double kWideShare = 0.75;        ///< of the largest radius: radius of a wide region
+constexpr double kVanishing = 0.48;    ///< contrast in the middle, as a share of that of the lumen
+constexpr double kWider = 1.6;         ///< bound of the radius, in radii of the widest part of a path
+constexpr double kBoundMargin = 8e-4;  ///< [m]
 
-WideRegions wideRegions(const Scan& scan, const CheckedBranch& branch)
+/** Lumen of a branch along its clicks.
+ *  @param warnings receives an order of the clicks that was changed */
+LumenBranch lumenOf(const Scan& scan, const std::string& file, CheckedBranch checked, bool is_alone,
+                    const EdgeSettings& settings, std::vector<std::string>& warnings)
 {
-  if (branch.largest_radius > kWidestWithLimit)
-    return {};
-  double darkest = branch.clicks.front().value;
-  double brightest = darkest;
-  for (const LumenAtClick& click : branch.clicks)
-  {
-    darkest = std::min(darkest, click.value);
-    brightest = std::max(brightest, click.value);
-  }
-  const LumenRange range{darkest, brightest, branch.background};
-  return {scan, range.threshold(), kWideShare * branch.largest_radius};
+  const ClickPath path = orderedPath(scan, checked, is_alone, file, warnings);
+  LumenBranch branch;
+  branch.name = checked.name;
+  branch.largest_radius = checked.largest_radius;
+  // A narrow click says nothing about the lumen far from it.
+  if (const double widest = widestRadius(scan, path, checked); widest > branch.largest_radius && !checked.isBounded())
+    branch.largest_radius = kWider * widest + kBoundMargin;
+  branch.sections = fitLumen(scan, path.points, RayReach(branch.largest_radius), settings);
+  return branch;
 }
 
-/** Path through all clicks of a branch. */
-ClickPath pathOf(const Scan& scan, const ClickSet& clicks, const CheckedBranch& branch)
-{
-  const WideRegions wide = wideRegions(scan, branch);
-  ClickPath result;
-  result.points = {branch.clicks.front().position};
-  result.clicks = {0};
-  for (std::size_t k = 0; k + 1 < branch.clicks.size(); ++k)
-  {
-    const MinimalPath path =
-        minimalPath(scan, branch.clicks[k].position, branch.clicks[k + 1].position, branch.range(k), wide);
-    if (path.leavesLumen())
-      throw InputError(clicks.file, branch.name,
-                       "clicks " + std::to_string(k + 1) + " and " + std::to_string(k + 2) +
-                           " lie in two vessels: the path between them leaves the contrast for " +
-                           std::to_string(path.longest_gap * 1e3).substr(0, 4) + " mm at " +
-                           inMillimetres(scan.toPatient(path.gap_location)) +
-                           "; correct a click, add one between them, or end the branch at an occlusion");
-    result.points.insert(result.points.end(), path.points.begin() + 1, path.points.end());
-    result.clicks.push_back(result.points.size() - 1);
-  }
-  requireCourse(result, branch, clicks.branches.size() == 1, clicks.file);
-  return result;
-}
-
-/** A path of several times the distance of its clicks has probably taken another vessel. The loop of a right coronary
- * artery has twice the distance. */
-void warnOfDetour(const CheckedBranch& checked, const LumenBranch& branch, std::vector<std::string>& warnings)
-{
-  constexpr double kDetour = 3.0;
-  double straight = 0.0;
-  for (std::size_t k = 0; k + 1 < checked.clicks.size(); ++k)
-    straight += (checked.clicks[k + 1].position - checked.clicks[k].position).norm();
-  const double length = branch.arc().back();
-  if (length > kDetour * straight)
-    warnings.push_back(
-        branch.name + ": the path has " + std::to_string(static_cast<int>(std::round(length / straight))) +
-        " times the length of the straight line between the clicks; check that they lie in one vessel, or "
-        "add a click between them");
-}
-
-/** Without an edge along any ray, or with a contour below the size of a voxel, the path has left the lumen, or the
- * vessel is occluded. The ends are left out: they may lie in the wider lumen of another branch. */
-void warnOfVanishingLumen(const Scan& scan, const LumenBranch& branch, std::vector<std::string>& warnings)
+/** Without an edge along any ray, darker in the middle than an edge, or with a contour below the size of a voxel, the
+ * path has left the lumen, or the vessel is occluded. The ends are left out: they may lie in the wider lumen of another
+ * branch. */
+std::optional<std::string> vanishingLumen(const Scan& scan, const LumenBranch& branch)
 {
   const std::vector<double> arc = branch.arc();
   for (std::size_t s = 0; s < branch.sections.size(); ++s)
   {
     const Section& section = branch.sections[s];
     const double to_end = std::min(arc[s], arc.back() - arc[s]);
-    if ((section.edges > 0.0 || to_end < 2.0 * section.diameter()) && section.diameter() > scan.spacing().minCoeff())
+    const bool is_bright = section.edges() > 0.0 && section.middle > kVanishing;
+    if ((is_bright || to_end < 2.0 * section.diameter()) && section.diameter() > scan.spacing().minCoeff())
       continue;
-    warnings.push_back(branch.name + ": the lumen vanishes at " + inMillimetres(scan.toPatient(section.centre)) +
-                       "; check the straightened view, add a click there, or end the branch before it");
-    return;
+    return branch.name + ": the lumen vanishes at " + inMillimetres(scan.toPatient(section.centre)) +
+           "; check the straightened view, add a click there, or end the branch before it";
   }
+  return std::nullopt;
+}
+
+/** @throws InputError for a lumen of which rays from its middle see a part only */
+void requireVisibleLumen(const Scan& scan, const LumenBranch& branch, const std::string& file)
+{
+  const std::optional<Stretch> hidden = hiddenStretch(branch);
+  if (!hidden)
+    return;
+  const std::vector<double> arc = branch.arc();
+  const auto at = std::lower_bound(arc.begin(), arc.end(), hidden->from) - arc.begin();
+  throw InputError(
+      file, branch.name,
+      formatted("a bulge of the wall hides a part of the lumen from its middle at %.0f mm, ", 1e3 * hidden->from) +
+          inMillimetres(scan.toPatient(branch.sections[static_cast<std::size_t>(at)].centre)) +
+          " (a crescent, as of a dissection); end the branch before it, or give a mask of this lumen");
 }
 
 }  // namespace
@@ -101,19 +82,28 @@ Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const Edg
   const std::vector<CheckedBranch> checked = checkClicks(scan, clicks, result.warnings);
   result.branches.resize(checked.size());
   reportProgress(progress, "segmenting the branches");
+  std::vector<std::vector<std::string>> warnings(checked.size());
+  parallelFor(checked.size(), threadCount(threads),
+              [&](std::size_t b) {
+                result.branches[b] = lumenOf(scan, clicks.file, checked[b], checked.size() == 1, settings, warnings[b]);
+              });
+  const std::vector<LumenBranch> first = result.branches;
   parallelFor(checked.size(), threadCount(threads),
               [&](std::size_t b)
               {
-                LumenBranch& branch = result.branches[b];
-                branch.name = checked[b].name;
-                branch.largest_radius = checked[b].largest_radius;
-                branch.sections =
-                    fitLumen(scan, pathOf(scan, clicks, checked[b]).points, checked[b].largest_radius, settings);
+                reachEdges(scan, checked[b].given_radius, settings, otherLumens(first, b), clicks.file,
+                           result.branches[b]);
+                requireVisibleLumen(scan, result.branches[b], clicks.file);
               });
   for (std::size_t b = 0; b < checked.size(); ++b)
   {
-    warnOfDetour(checked[b], result.branches[b], result.warnings);
-    warnOfVanishingLumen(scan, result.branches[b], result.warnings);
+    result.warnings.insert(result.warnings.end(), warnings[b].begin(), warnings[b].end());
+    // Longer rays move a path away from the wall that it crosses.
+    std::optional<std::string> vanishing = vanishingLumen(scan, first[b]);
+    if (!vanishing)
+      vanishing = vanishingLumen(scan, result.branches[b]);
+    if (vanishing)
+      result.warnings.push_back(*vanishing);
   }
   return result;
 }

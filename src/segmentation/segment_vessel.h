@@ -20,11 +20,11 @@ struct Segmentation
   std::vector<std::string> warnings;
 };
 
-/** Segments every branch by its own clicks: minimal path, then cross-sections. Branches are independent of each other
- * here.
+/** Segments every branch by its own clicks: minimal path, then cross-sections, whose rays are lengthened where they
+ * have no edge (reachEdges()).
  *  @param threads 0: number of processors; the result does not depend on it
- *  @throws InputError for clicks that do not lie in a lumen, or in two vessels (click_check.h), and for those that are
- * no course along a branch (path_check.h) */
+ *  @throws InputError for clicks that do not lie in a lumen, or in two vessels (click_check.h), for those that are no
+ *  course along a branch (path_check.h), and for a lumen without edges (wider_lumen.h) */
 Segmentation segmentBranches(const Scan& scan, const ClickSet& clicks, const EdgeSettings& settings, int threads,
                              const ProgressReport& progress = {});
 

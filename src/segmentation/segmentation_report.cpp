@@ -45,7 +45,8 @@ Json toJson(const std::vector<Stretch>& list)
 
 }  // namespace
 
-BranchFindings findingsOf(const Scan& scan, const std::vector<LumenBranch>& branches, std::size_t branch)
+BranchFindings findingsOf(const Scan& scan, const std::vector<LumenBranch>& branches, std::size_t branch,
+                          const std::vector<std::string>& warnings)
 {
   const LumenBranch& own = branches[branch];
   const std::vector<double> arc = own.arc();
@@ -56,7 +57,7 @@ BranchFindings findingsOf(const Scan& scan, const std::vector<LumenBranch>& bran
   if (own.parent >= 0)
     findings.parent = branches[static_cast<std::size_t>(own.parent)].name;
   findings.length = arc.back();
-  findings.least_diameter = 1e30;
+  findings.throat = throatOf(scan, own);
   std::vector<double> values;
   for (std::size_t k = 0; k < n; ++k)
   {
@@ -67,19 +68,18 @@ BranchFindings findingsOf(const Scan& scan, const std::vector<LumenBranch>& bran
       findings.last_diameter += diameter / static_cast<double>(tenth);
     if (k > 0)
       findings.volume += 0.5 * (own.sections[k].area() + own.sections[k - 1].area()) * (arc[k] - arc[k - 1]);
-    if (diameter < findings.least_diameter)
-    {
-      findings.least_diameter = diameter;
-      findings.least_at = arc[k];
-      findings.least_position = scan.toPatient(own.sections[k].centre);
-    }
     values.push_back(own.sections[k].lumen);
-    findings.rays_without_edge += (1.0 - own.sections[k].edges) / static_cast<double>(n);
+    findings.rays_without_edge += (1.0 - own.sections[k].edges()) / static_cast<double>(n);
   }
   std::sort(values.begin(), values.end());
   findings.lumen = values[n / 2];
-  findings.without_edge = stretches(own, [](const Section& section) { return 1.0 - section.edges > kManyWithoutEdge; });
-  findings.calcium = stretches(own, [](const Section& section) { return section.calcium > kSomeCalcium; });
+  findings.without_edge =
+      stretches(own, [](const Section& section) { return 1.0 - section.edges() > kManyWithoutEdge; });
+  findings.calcium =
+      stretches(own, [](const Section& section) { return section.share(RayEnd::kCalcium) > kSomeCalcium; });
+  findings.bone = stretches(own, [](const Section& section) { return section.share(RayEnd::kBone) > kSomeCalcium; });
+  findings.turns = turnsOf(own);
+  findings.verdict = verdictOf(scan, branches, branch, warnings);
   return findings;
 }
 
@@ -93,20 +93,26 @@ std::string segmentationJson(const Scan& scan, const std::vector<LumenBranch>& b
   json["branches"] = Json::array();
   for (std::size_t b = 0; b < branches.size(); ++b)
   {
-    const BranchFindings f = findingsOf(scan, branches, b);
+    const BranchFindings f = findingsOf(scan, branches, b, warnings);
     Json branch = {{"name", f.name},
                    {"parent", f.parent},
                    {"length", f.length},
                    {"volume", f.volume},
                    {"first_diameter", f.first_diameter},
                    {"last_diameter", f.last_diameter},
-                   {"least_diameter", f.least_diameter},
-                   {"least_diameter_at", f.least_at},
-                   {"least_diameter_position", {f.least_position.x(), f.least_position.y(), f.least_position.z()}},
+                   {"least_diameter", f.throat.diameter},
+                   {"least_diameter_at", f.throat.at},
+                   {"least_diameter_position", {f.throat.position.x(), f.throat.position.y(), f.throat.position.z()}},
+                   {"least_diameter_voxels", f.throat.voxels},
+                   {"least_diameter_error", f.throat.error},
                    {"lumen_value", f.lumen},
                    {"rays_without_edge", f.rays_without_edge},
                    {"stretches_without_edge", toJson(f.without_edge)},
-                   {"calcium", toJson(f.calcium)}};
+                   {"calcium", toJson(f.calcium)},
+                   {"bone", toJson(f.bone)},
+                   {"turns", toJson(f.turns)},
+                   {"verdict", nameOf(f.verdict.use)},
+                   {"reasons", f.verdict.reasons}};
     const std::vector<double> arc = branches[b].arc();
     Json sections = {{"arc", Json::array()}, {"diameter", Json::array()}, {"lumen_value", Json::array()}};
     for (std::size_t k = 0; k < arc.size(); ++k)
@@ -122,23 +128,28 @@ std::string segmentationJson(const Scan& scan, const std::vector<LumenBranch>& b
   return json.dump(1) + "\n";
 }
 
-std::string segmentationText(const Scan& scan, const std::vector<LumenBranch>& branches)
+std::string segmentationText(const Scan& scan, const std::vector<LumenBranch>& branches,
+                             const std::vector<std::string>& warnings)
 {
   std::string text =
-      "branch                       length  diameter: first  last  least at    lumen  no edge  calcium\n";
+      "branch                       length  diameter: first  last  least ± error at    lumen  no edge  calcium\n";
+  std::string verdicts;
   for (std::size_t b = 0; b < branches.size(); ++b)
   {
-    const BranchFindings f = findingsOf(scan, branches, b);
+    const BranchFindings f = findingsOf(scan, branches, b, warnings);
     double calcium = 0.0;
     for (const Stretch& stretch : f.calcium)
       calcium += stretch.to - stretch.from;
-    const std::string line =
-        formatted("%-26s %6.1f mm        %6.2f %5.2f %6.2f %5.1f mm %5.0f %6.1f %% %5.1f mm\n", f.name.c_str(),
-                  1e3 * f.length, 1e3 * f.first_diameter, 1e3 * f.last_diameter, 1e3 * f.least_diameter,
-                  1e3 * f.least_at, f.lumen, 100.0 * f.rays_without_edge, 1e3 * calcium);
-    text += line;
+    text +=
+        formatted("%-26s %6.1f mm        %6.2f %5.2f %6.2f ± %4.2f %5.1f mm %5.0f %6.1f %% %5.1f mm\n", f.name.c_str(),
+                  1e3 * f.length, 1e3 * f.first_diameter, 1e3 * f.last_diameter, 1e3 * f.throat.diameter,
+                  1e3 * f.throat.error, 1e3 * f.throat.at, f.lumen, 100.0 * f.rays_without_edge, 1e3 * calcium);
+    verdicts += f.name + ": " + nameOf(f.verdict.use);
+    for (std::size_t k = 0; k < f.verdict.reasons.size(); ++k)
+      verdicts += (k == 0 ? ": " : "; ") + f.verdict.reasons[k];
+    verdicts += "\n";
   }
-  return text;
+  return text + verdicts;
 }
 
 }  // namespace endovascular_sim::segmentation

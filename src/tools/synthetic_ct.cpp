@@ -1,13 +1,16 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/error.h"
 #include "common/progress.h"
 #include "image/volume_file.h"
+#include "phantom/diseased_vessel.h"
 #include "phantom/phantom.h"
 #include "phantom/true_clicks.h"
 #include "scene/file_search.h"
@@ -35,6 +38,8 @@ struct Options
   int threads = 0;
   std::string clicks;
   std::vector<std::string> branches;
+  std::string disease;
+  double degree = std::numeric_limits<double>::quiet_NaN();
   bool quiet = false;
 };
 
@@ -83,12 +88,11 @@ phantom::PhantomSettings settingsOf(const Options& options, const vessel::Anatom
   return settings;
 }
 
-void writeClicks(const Options& options, const vessel::Anatomy& anatomy, const image::VolumeGrid& grid)
+void writeClicks(const Options& options, const std::vector<phantom::BranchClicks>& branches)
 {
   std::ofstream out = tools::openFile(options.clicks);
   out << "# Simulated clicks into " << options.out << " [mm].\nframe: LPS\nunit: 0.001\nbranches:\n";
-  for (const phantom::BranchClicks& branch :
-       phantom::trueClicks(anatomy, options.branches, grid.bounds(), static_cast<std::uint64_t>(options.seed)))
+  for (const phantom::BranchClicks& branch : branches)
   {
     out << "  - name: " << branch.name << "\n    clicks: [";
     for (std::size_t k = 0; k < branch.points.size(); ++k)
@@ -103,6 +107,15 @@ void writeClicks(const Options& options, const vessel::Anatomy& anatomy, const i
   tools::requireWritten(static_cast<bool>(out.flush()), options.clicks);
 }
 
+void write(const Options& options, const image::Volume& volume)
+{
+  image::writeVolume(options.out, volume);
+  const image::VolumeGrid& grid = volume.grid;
+  std::printf("%d x %d x %d voxels of %.3f x %.3f x %.3f mm, %.0f MB\n", grid.size.x(), grid.size.y(), grid.size.z(),
+              1e3 * grid.spacing.x(), 1e3 * grid.spacing.y(), 1e3 * grid.spacing.z(),
+              2e-6 * static_cast<double>(grid.voxels()));
+}
+
 int make(const Options& options)
 {
   const std::string file = options.anatomy.empty() ? scene::configFolder() + "/anatomies/plain.yaml" : options.anatomy;
@@ -110,15 +123,31 @@ int make(const Options& options)
   tools::printWarnings("synthetic_ct", anatomy.warnings);
   const phantom::PhantomSettings settings = settingsOf(options, anatomy);
   if (!options.clicks.empty())
-    writeClicks(options, anatomy, settings.grid);
+    writeClicks(options, phantom::trueClicks(anatomy, options.branches, settings.grid.bounds(), settings.seed));
   tools::requireWritable(options.out);
   const image::Volume volume =
       phantom::makePhantom(anatomy, settings, options.quiet ? ProgressReport() : progressOnErrorStream());
-  image::writeVolume(options.out, volume);
-  const image::VolumeGrid& grid = volume.grid;
-  std::printf("%d x %d x %d voxels of %.3f x %.3f x %.3f mm, %.0f MB\n", grid.size.x(), grid.size.y(), grid.size.z(),
-              1e3 * grid.spacing.x(), 1e3 * grid.spacing.y(), 1e3 * grid.spacing.z(),
-              2e-6 * static_cast<double>(grid.voxels()));
+  write(options, volume);
+  return 0;
+}
+
+int makeDisease(const Options& options)
+{
+  const std::unique_ptr<phantom::DiseasedVessel> vessel = phantom::diseasedVessel(options.disease, options.degree);
+  phantom::PhantomSettings settings = vessel->usualImage();
+  if (options.spacing > 0.0)
+    settings.grid = phantom::gridOfBox(-vessel->halfExtent(), vessel->halfExtent(),
+                                       Eigen::Vector3d::Constant(1e-3 * options.spacing));
+  if (options.noise >= 0.0)
+    settings.noise = options.noise;
+  if (options.point_spread >= 0.0)
+    settings.point_spread = 1e-3 * options.point_spread;
+  settings.seed = static_cast<std::uint64_t>(options.seed);
+  settings.threads = options.threads;
+  if (!options.clicks.empty())
+    writeClicks(options, {{"vessel", vessel->clicks()}});
+  tools::requireWritable(options.out);
+  write(options, phantom::imageOf(*vessel, settings, options.quiet ? ProgressReport() : progressOnErrorStream()));
   return 0;
 }
 
@@ -159,6 +188,15 @@ int main(int argc, char** argv)
               "also writes two simulated clicks per branch, for vessel_segment");
   line.repeated("--branch", options.branches, "NAME",
                 "branch of the simulated clicks; default: all in the field of view");
+  line.option("--disease", options.disease, "NAME",
+              "diseased vessel in place of the anatomy: aneurysm, stenosis, dim_lumen (MR), bone (beside the wall), "
+              "dissection, crescent (with a flap that bulges)")
+      ->check(CLI::IsMember(phantom::diseaseNames()));
+  line.option("--degree", options.degree, "VALUE",
+              "of the disease: largest diameter [0.06 m], share of the diameter that is missing [0.8], darkest over "
+              "brightest signal [0.35], gap before the bone [0.0002 m], distance of the flap from the axis in radii "
+              "[-0.1]")
+      ->check(CLI::Range(-1.0, 1.0));
   line.flag("--quiet", options.quiet, "prints no progress");
-  return line.run(argc, argv, [&options] { return make(options); });
+  return line.run(argc, argv, [&options] { return options.disease.empty() ? make(options) : makeDisease(options); });
 }

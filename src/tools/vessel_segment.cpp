@@ -1,9 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -11,24 +9,22 @@
 #include <vector>
 
 #include "common/error.h"
-#include "common/file/file_name.h"
 #include "common/numerics/parallel_for.h"
-#include "common/process/child_process.h"
 #include "common/progress.h"
 #include "common/quantities.h"
-#include "common/text/format.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "image/volume_file.h"
-#include "scene/mesh_trial.h"
-#include "segmentation/lumen_centreline.h"
 #include "segmentation/mesh/segmented_vessel.h"
+#include "segmentation/other_lumens.h"
 #include "segmentation/segmentation_report.h"
 #include "segmentation/view/ct_page.h"
 #include "segmentation/view/straightened_view.h"
 #include "tools/command_line.h"
+#include "tools/import_images.h"
+#include "tools/label_command.h"
+#include "tools/stage_clock.h"
 #include "tools/tool_output.h"
-#include "vessel/centreline/centreline_file.h"
-#include "vessel/io/mesh_reader.h"
+#include "tools/vessel_files.h"
 
 namespace
 {
@@ -36,11 +32,12 @@ namespace
 using namespace endovascular_sim;  // NOLINT: a program's main file
 
 constexpr auto kName = "vessel_segment";
-
 struct Options
 {
   std::string images;
   std::vector<std::string> clicks;
+  std::vector<std::string> labels;
+  std::string names;
   std::string out;
   std::string page;
   std::string modality;
@@ -48,32 +45,14 @@ struct Options
   std::vector<std::string> closed;
   int series = 0;
   double subtract = 0.0;
-  double point_spread = 0.0;   // mm; 0: by modality
-  double wall = -1.0;          // mm; < 0: by modality
-  double max_distance = 2e-4;  // m
+  double point_spread = 0.0;  // mm; 0: by modality
+  double wall = -1.0;         // mm; < 0: by modality
+  double max_distance = 0.0;  // m; 0: by kind of the images
   double cut_back = 0.75;
   double memory = 4.0;  // GB
   int threads = 0;
   bool half_maximum = false;
   bool quiet = false;
-};
-
-/** Times of the stages on the error stream. */
-class StageClock
-{
-public:
-  explicit StageClock(bool quiet) : quiet_(quiet) {}
-
-  void begin(const std::string& stage) const
-  {
-    if (!quiet_)
-      std::fprintf(stderr, "%6.1f s  %s\n",
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), stage.c_str());
-  }
-
-private:
-  bool quiet_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 bool isVolume(const std::string& path)
@@ -89,26 +68,20 @@ double memoryFor(const std::string& volume)
   return code ? 0.0 : 2.6 * bytes + 3e8;
 }
 
-/** Converts images by volume_import, which lies beside this program. */
+/** Converts images by volume_import. */
 void import(const Options& options, const std::string& volume)
 {
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "volume_import";
-  if (!std::filesystem::exists(program))
-    throw InputError(options.images, "",
-                     "is no .vol file, and volume_import is not built; install libinsighttoolkit5-dev and build again");
-  std::vector<std::string> command = {program.string(), options.images, "--out",
-                                      volume,           "--memory",     std::to_string(options.memory)};
+  std::vector<std::string> choices = {"--memory", std::to_string(options.memory)};
   if (!options.modality.empty())
-    command.insert(command.end(), {"--modality", options.modality});
+    choices.insert(choices.end(), {"--modality", options.modality});
   if (options.series > 0)
-    command.insert(command.end(), {"--series", std::to_string(options.series)});
+    choices.insert(choices.end(), {"--series", std::to_string(options.series)});
   if (options.subtract != 0.0)
-    command.insert(command.end(), {"--subtract", std::to_string(options.subtract)});
-  if (runProgram(command) != 0)
-    throw InputError(options.images, "", "was rejected by volume_import for the reason above");
+    choices.insert(choices.end(), {"--subtract", std::to_string(options.subtract)});
+  tools::importImages(options.images, volume, choices);
 }
 
-segmentation::Scan readScan(const Options& options, const std::string& stem, const StageClock& clock,
+segmentation::Scan readScan(const Options& options, const std::string& stem, const tools::StageClock& clock,
                             std::vector<std::string>& warnings)
 {
   std::string volume = options.images;
@@ -145,7 +118,8 @@ segmentation::VesselSettings settingsOf(const Options& options, const segmentati
   if (!options.open.empty())
     settings.open = options.open;
   settings.closed = options.closed;
-  settings.max_distance = options.max_distance;
+  if (options.max_distance > 0.0)
+    settings.max_distance = options.max_distance;
   settings.cut_back = options.cut_back;
   settings.threads = options.threads;
   return settings;
@@ -154,17 +128,18 @@ segmentation::VesselSettings settingsOf(const Options& options, const segmentati
 void writeViews(const segmentation::Scan& scan, const std::vector<segmentation::LumenBranch>& branches,
                 const std::string& stem)
 {
-  for (const segmentation::LumenBranch& branch : branches)
+  for (std::size_t b = 0; b < branches.size(); ++b)
   {
-    const segmentation::GreyPicture view = segmentation::straightenedView(scan, branch);
-    fluoroscopy::writePng(stem + "_" + fileNameOf(branch.name) + ".png", view.width, view.height, view.pixels);
+    const segmentation::ColourPicture view =
+        segmentation::straightenedView(scan, branches[b], segmentation::otherLumens(branches, b));
+    fluoroscopy::writeColourPng(stem + "_" + branches[b].name + ".png", view.width, view.height, view.pixels);
   }
 }
 
 /** Writes the page on which clicks are made. */
 int writePage(const Options& options)
 {
-  const StageClock clock(options.quiet);
+  const tools::StageClock clock(options.quiet);
   std::vector<std::string> warnings;
   const std::filesystem::path page(options.page);
   tools::requireWritable(options.page);
@@ -177,92 +152,11 @@ int writePage(const Options& options)
   return 0;
 }
 
-/** Files of a vessel under their final names, and under names for the checks of the simulator. */
-struct VesselFiles
+/** Remedy of a vessel that scenes refuse. */
+std::string remedyOf(const std::string& stem)
 {
-  std::string mesh;
-  std::string centreline;
-  std::string tried_mesh;
-  std::string tried_centreline;
-
-  explicit VesselFiles(const std::string& stem)
-    : mesh(stem + ".obj"),
-      centreline(stem + "_centreline.yaml"),
-      tried_mesh(stem + ".part.obj"),
-      tried_centreline(stem + ".part.yaml")
-  {
-  }
-  VesselFiles(const VesselFiles&) = delete;
-  VesselFiles& operator=(const VesselFiles&) = delete;
-  ~VesselFiles()
-  {
-    std::error_code code;
-    std::filesystem::remove(tried_mesh, code);
-    std::filesystem::remove(tried_centreline, code);
-  }
-
-  /** Gives the files their final names, in place of those of an earlier vessel. */
-  void keep() const
-  {
-    std::filesystem::rename(tried_mesh, mesh);
-    std::filesystem::rename(tried_centreline, centreline);
-  }
-
-  /** Message with the final names. */
-  std::string named(std::string message) const
-  {
-    for (const auto& [tried, name] : {std::pair(tried_mesh, mesh), std::pair(tried_centreline, centreline)})
-      for (std::size_t at = message.find(tried); at != std::string::npos; at = message.find(tried, at + name.size()))
-        message.replace(at, tried.size(), name);
-    return message;
-  }
-};
-
-/** Position [m] as an argument of --set, quoted for a shell. */
-std::string positionArgument(const Eigen::Vector3d& position)
-{
-  return formatted("'[%.4f, %.4f, %.4f]'", position.x(), position.y(), position.z());
-}
-
-/** Error of a vessel that scenes would refuse. */
-InputError notWritten(const std::string& stem, const std::string& reason)
-{
-  return InputError(
-      stem + ".obj", "",
-      "is not written, because no scene can use the vessel (" + reason + "); look at the straightened views " + stem +
-          "_BRANCH.png, then move clicks, e.g. to the ends of a longer stretch, or leave an end closed by "
-          "--closed");
-}
-
-/** Writes mesh and centreline if a scene can use them.
- *  @return arguments of `simulate` that use the vessel
- *  @throws InputError with the reason of the simulator; an earlier vessel stays */
-std::string writeVessel(const segmentation::Scan& scan, const geometry::TriangleMesh& mesh,
-                        const vessel::CentrelineTree& tree, const std::string& stem, std::vector<std::string>& warnings)
-{
-  const VesselFiles files(stem);
-  vessel::writeObj(segmentation::toPatient(scan, mesh), files.tried_mesh);
-  vessel::writeCentreline(segmentation::toPatient(scan, tree), std::filesystem::path(stem).filename().string(),
-                          files.tried_centreline);
-  scene::MeshTrial trial;
-  try
-  {
-    trial = scene::tryMesh(std::filesystem::absolute(files.tried_mesh).string(),
-                           std::filesystem::absolute(files.tried_centreline).string());
-  }
-  catch (const InputError& error)
-  {
-    throw notWritten(stem, files.named(error.what()));
-  }
-  for (const std::string& warning : trial.warnings)
-    warnings.push_back(files.named(warning));
-  files.keep();
-  std::string arguments =
-      "config/scenes/mesh.yaml --set vessel.mesh=" + std::filesystem::absolute(files.mesh).string() +
-      " --set vessel.unit=1 --set vessel.centreline=" + std::filesystem::absolute(files.centreline).string();
-  if (trial.entry)
-    arguments += " --set entry.position=" + positionArgument(*trial.entry);
-  return arguments;
+  return "look at the straightened views " + stem +
+         "_BRANCH.png, then move clicks, e.g. to the ends of a longer stretch, or leave an end closed by --closed";
 }
 
 segmentation::SegmentedVessel vesselOf(const Options& options, const segmentation::Scan& scan,
@@ -275,13 +169,13 @@ segmentation::SegmentedVessel vesselOf(const Options& options, const segmentatio
   }
   catch (const segmentation::UnusableSurface& error)
   {
-    throw notWritten(stem, error.what());
+    throw tools::notWritten(stem, error.what(), remedyOf(stem));
   }
 }
 
 int segment(const Options& options)
 {
-  const StageClock clock(options.quiet);
+  const tools::StageClock clock(options.quiet);
   const std::filesystem::path out(options.out);
   const std::string stem = (out.parent_path() / out.stem()).string();
   std::vector<std::string> warnings;
@@ -298,18 +192,45 @@ int segment(const Options& options)
   const segmentation::SegmentedVessel vessel = vesselOf(options, scan, clicks, stem, observer);
   warnings.insert(warnings.end(), vessel.warnings.begin(), vessel.warnings.end());
   clock.begin("checking the vessel as scenes do");
-  const std::string arguments = writeVessel(scan, vessel.mesh, vessel.centreline, stem, warnings);
+  const std::string arguments =
+      tools::writeVessel(scan, vessel.mesh, vessel.centreline, stem, remedyOf(stem), warnings);
   tools::writeFile(stem + "_report.json", segmentation::segmentationJson(scan, vessel.branches, warnings));
   clock.begin("done");
   tools::printWarnings(kName, warnings);
   const vessel::MeshReport& defects = vessel.report.before.defects;
-  std::cout << segmentation::segmentationText(scan, vessel.branches) << vessel.mesh.triangles.size()
+  std::cout << segmentation::segmentationText(scan, vessel.branches, warnings) << vessel.mesh.triangles.size()
             << " triangles, genus " << defects.genus << ", open ends: " << vessel.open_ends << ", at most "
             << std::round(1e6 * vessel.report.result_to_input.largest) * 1e-3
             << " mm from the contours\nlook at the straightened views " << stem << "_BRANCH.png before use\nwrote "
             << options.out << ", " << stem << "_centreline.yaml, " << stem << "_report.json\n"
-            << "to use the vessel: simulate " << arguments << "\n";
+            << "to use the vessel: rosrun endovascular_sim simulate " << arguments << "\n";
   return 0;
+}
+
+/** Makes a vessel of a label map. */
+int segmentLabels(const Options& options)
+{
+  tools::LabelCommand command;
+  command.map = options.images;
+  command.labels = options.labels;
+  command.names = options.names;
+  command.clicks = options.clicks;
+  command.out = options.out;
+  command.settings.open = options.open;
+  command.settings.closed = options.closed;
+  command.settings.max_distance = options.max_distance;
+  command.settings.cut_back = options.cut_back;
+  command.series = options.series;
+  command.memory = options.memory;
+  command.quiet = options.quiet;
+  return tools::segmentLabels(command);
+}
+
+int run(const Options& options)
+{
+  if (!options.labels.empty())
+    return segmentLabels(options);
+  return options.page.empty() ? segment(options) : writePage(options);
 }
 
 }  // namespace
@@ -330,6 +251,11 @@ int main(int argc, char** argv)
       "volume_import converts first");
   line.repeated("--clicks", options.clicks, "FILE",
                 "clicks into the lumen: .yaml, or markups of 3D Slicer (.mrk.json, .fcsv)");
+  line.repeated("--label", options.labels, "N",
+                "IMAGES is a label map or a mask: makes a vessel of the label with this number, or with this name of "
+                "--names. --clicks is optional then: a click opens the end beside it");
+  line.option("--names", options.names, "TABLE",
+              "names of labels: .yaml or .json (number: name), .csv, or a colour table of 3D Slicer (.ctbl)");
   line.option(
           "--out", options.out, "OUT.obj",
           "the vessel in metres, in the patient frame; beside it OUT_centreline.yaml, OUT_report.json, OUT_BRANCH.png, "
@@ -350,14 +276,16 @@ int main(int argc, char** argv)
       ->check(CLI::Range(0.01, 10.0));
   line.option("--wall", options.wall, "MM", "thickness of the vessel wall [CT 0.8 mm; else 0]")
       ->check(CLI::Range(0.0, 5.0));
-  line.repeated("--open", options.open, "WHICH",
-                "ends that become open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end; "
-                "vessel_server prints it for a click in rviz), or a branch [all]");
+  line.repeated(
+      "--open", options.open, "WHICH",
+      "ends that become open: all, largest, a count (the widest ends), x,y,z in metres (the nearest end; "
+      "vessel_server prints it for a click in rviz), or a branch [all; of a label those at the border of the image]");
   line.repeated("--closed", options.closed, "WHICH", "ends that stay closed, named likewise");
   line.quantity("--max-distance", options.max_distance, "M", quantities::kSurfaceDistance,
-                "largest distance of the mesh from the contours [0.0002]");
-  line.quantity("--cut-back", options.cut_back, "R", quantities::kScale,
-                "distance of an open end from the last contour, in radii of the lumen [0.75]");
+                "largest distance of the mesh from the contours [0.0002; of a label 0.4 voxels]");
+  line.quantity(
+      "--cut-back", options.cut_back, "R", quantities::kScale,
+      "distance of an open end from the last contour, or from the tip of a label, in radii of the lumen [0.75]");
   line.option("--memory", options.memory, "GB", "largest need of memory [4]")->check(CLI::Range(0.1, 1000.0));
   line.option("--threads", options.threads, "N", "number of threads; the result does not depend on it [0: processors]")
       ->check(CLI::Range(0, 256));
@@ -366,9 +294,17 @@ int main(int argc, char** argv)
   line.require(
       [&options]() -> std::string
       {
+        if (!options.names.empty() && options.labels.empty())
+          return "--names requires --label";
+        if (!options.labels.empty())
+          return options.page.empty() && !options.out.empty() ? "" : "--label requires --out, and excludes --page";
         if (options.page.empty())
-          return options.clicks.empty() || options.out.empty() ? "--clicks and --out are required, or --page" : "";
+        {
+          if (options.out.empty())
+            return "--out is required, or --page";
+          return options.clicks.empty() ? "give --clicks for images, or --label N for a label map" : "";
+        }
         return options.clicks.empty() && options.out.empty() ? "" : "--page excludes --clicks and --out";
       });
-  return line.run(argc, argv, [&options] { return options.page.empty() ? segment(options) : writePage(options); });
+  return line.run(argc, argv, [&options] { return run(options); });
 }

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/error.h"
 #include "common/process/child_process.h"
@@ -30,6 +31,7 @@ struct Options
   std::string input;
   std::string output;
   std::string modality;
+  std::vector<long> labels;
   int series = 0;
   double memory = 4.0;  // GB
   double time = 600.0;  // s
@@ -43,7 +45,10 @@ void print(const image::Volume& volume)
   const Eigen::Vector3d high = grid.bounds().max();
   std::printf("%d x %d x %d voxels of %.3f x %.3f x %.3f mm, %s, %.0f MB\n", grid.size.x(), grid.size.y(),
               grid.size.z(), 1e3 * grid.spacing.x(), 1e3 * grid.spacing.y(), 1e3 * grid.spacing.z(),
-              volume.modality == image::Modality::kCt ? "CT" : "no CT", 2e-6 * static_cast<double>(grid.voxels()));
+              volume.modality == image::Modality::kCt       ? "CT"
+              : volume.modality == image::Modality::kLabels ? "labels"
+                                                            : "no CT",
+              2e-6 * static_cast<double>(grid.voxels()));
   const char* names[] = {"left", "back", "head"};
   for (int axis = 0; axis < 3; ++axis)
     std::printf("  towards the patient's %s: %.1f to %.1f mm\n", names[axis], 1e3 * low[axis], 1e3 * high[axis]);
@@ -57,6 +62,7 @@ int import(const Options& options)
     image::ImportOptions choices;
     choices.series = options.series;
     choices.subtract = options.subtract;
+    choices.labels = options.labels;
     choices.memory = static_cast<std::uint64_t>(options.memory * kGigabyte);
     if (!options.modality.empty())
       choices.modality = options.modality == "ct" ? image::Modality::kCt : image::Modality::kOther;
@@ -144,6 +150,10 @@ int main(int argc, char** argv)
       ->check(CLI::IsMember({"ct", "other"}));
   line.option("--subtract", options.subtract, "N", "number that is subtracted from all values [0]")
       ->check(CLI::Range(-1e6, 1e6));
+  line.option("--label", options.labels, "N",
+              "label of a label map, which is reduced to the box around its chosen labels; may be repeated. "
+              "vessel_segment makes vessels of them")
+      ->allow_extra_args(false);
   line.option("--memory", options.memory, "GB", "largest need of memory [4]")->check(CLI::Range(0.1, 1000.0));
   line.option("--time", options.time, "S", "longest time of reading [600]")->check(CLI::Range(1.0, 1e6));
   return line.run(argc, argv, [&options] { return importWithLimits(options); });

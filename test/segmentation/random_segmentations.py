@@ -2,7 +2,7 @@
 """Random synthetic CTs and clicks through vessel_segment: PROGRAMS FOLDER COUNT SEED. Prints a table, one line per image.
 
 Tubes and trees of random course, radius and noise; clicks at the ends, or close together, at one place, outside of the lumen, in
-wrong order, or without the trunk. vessel_segment ends with exit code 1 and a message that names a file and a remedy, or with 0 and a
+wrong order (which is told), or without the trunk. vessel_segment ends with exit code 1 and a message that names a file and a remedy, or with 0 and a
 vessel with which `simulate` runs by the arguments that are printed. Equal seeds give equal images."""
 import collections
 import math
@@ -135,8 +135,8 @@ def trial(number):
         return kind, lines[0][-90:] if lines else "", failure or ("an output was left" if os.path.exists(out) else "")
     if code != 0:
         return kind, "", "exit code %d: %s" % (code, message[-300:])
-    arguments = [line for line in text.splitlines() if line.startswith("to use the vessel: simulate ")]
-    if kind in ("same", "fold") or len(arguments) != 1:
+    arguments = [line for line in text.splitlines() if line.startswith("to use the vessel: rosrun endovascular_sim simulate ")]
+    if kind == "same" or len(arguments) != 1 or (kind == "fold" and "order along the branch: 1, 3, 2" not in message):
         return kind, "", "accepted: " + text[-200:]
     run = [PROGRAMS + "/simulate"] + shlex.split(arguments[0].split("simulate ", 1)[1])
     code, _, message = result_of(run + ["--seconds", "0.02", "--no-plots", "--quiet", "--out", os.path.join(FOLDER, "run")])

@@ -108,19 +108,27 @@ TEST(JoinBranches, ABranchWithoutALumenBetweenItAndItsParentIsRefused)
   EXPECT_NE(text.find("leaves the contrast at"), std::string::npos) << text;
 }
 
-TEST(JoinBranches, APathOfSeveralTimesTheDistanceOfItsClicksIsReported)
+TEST(JoinBranches, APathOfSeveralTimesTheDistanceOfItsClicksIsRefused)
 {
   const std::vector<Piece> loop = {
       {{20, 17, 12}, {20, 17, 80}, 3.0}, {{20, 17, 80}, {34, 17, 80}, 3.0}, {{34, 17, 80}, {34, 17, 12}, 3.0}};
-  EXPECT_TRUE(holds(joined(loop, clicksAt({{"loop", {{20, 17, 20}, {34, 17, 20}}}})).warnings, "times the length"));
-  EXPECT_FALSE(holds(joined(loop, clicksAt({{"leg", {{20, 17, 20}, {20, 17, 70}}}})).warnings, "times the length"));
+  const auto errorOf = [&loop](const Places& places) {
+    return inputErrorOf([&] { joined(loop, clicksAt({{"loop", places}})); });
+  };
+  EXPECT_NE(errorOf({{20, 17, 20}, {34, 17, 20}}).find("times the distance of its clicks"), std::string::npos);
+  EXPECT_EQ(errorOf({{20, 17, 20}, {27, 17, 80}, {34, 17, 20}}), "");
+  EXPECT_EQ(errorOf({{20, 17, 20}, {20, 17, 70}}), "");
 }
 
-TEST(JoinBranches, APathAcrossTheWallBetweenTwoVesselsIsReportedWithItsPlace)
+TEST(JoinBranches, APathAcrossTheWallBetweenTwoVesselsIsRefusedWithItsPlace)
 {
   const std::vector<Piece> pieces = {{{20, 17, 10}, {20, 17, 42}, 3.0}, {{27.8, 17, 38}, {27.8, 17, 88}, 3.0}};
-  const Segmentation result = joined(pieces, clicksAt({{"artery", {{20, 17, 14}, {27.8, 17, 84}}}}));
-  EXPECT_TRUE(holds(result.warnings, "artery: the lumen vanishes at ("));
+  const std::string error = inputErrorOf(
+      [&] {
+        joined(pieces, clicksAt({{"artery", {{20, 17, 14}, {27.8, 17, 84}}}}));
+      });
+  EXPECT_NE(error.find("artery: the path between clicks 1 and 2 crosses a dark place at ("), std::string::npos)
+      << error;
   EXPECT_FALSE(holds(joined(kFork, clicksAt({{"trunk", {{30, 17, 84}, {30, 17, 50}}}})).warnings, "vanishes"));
 }
 

@@ -57,6 +57,31 @@ TEST(PathCheck, RefusesAPathThatTurnsBackAtAClick)
             std::string::npos);
 }
 
+TEST(PathCheck, RefusesALongPathWithItsFarthestPlace)
+{
+  // No image: nowhere is a lumen of the size of the clicks.
+  image::Volume volume;
+  volume.grid.size = {4, 4, 4};
+  volume.grid.spacing.setConstant(0.05);
+  volume.stored.assign(volume.grid.voxels(), 0);
+  const Scan scan(volume);
+  const auto errorOfPath = [&scan](const std::vector<Eigen::Vector3d>& corners)
+  {
+    ClickPath path = pathThrough(corners);
+    path.clicks = {0, path.points.size() - 1};
+    CheckedBranch branch;
+    branch.name = "LAD";
+    for (const std::size_t k : path.clicks)
+      branch.clicks.push_back({path.points[k], 350.0, 5e-3});
+    return inputErrorOf([&] { requireDirect(scan, path, branch, "clicks.yaml"); });
+  };
+  EXPECT_EQ(errorOfPath({{0, 0, 0}, {0, 15, 0}, {0, 15, 40}, {0, 0, 40}}), "");
+  const std::string error = errorOfPath({{0, 0, 0}, {0, 60, 0}, {0, 60, 40}, {0, 0, 40}});
+  EXPECT_NE(error.find("the path is 160 mm long, 4.0 times the distance of its clicks"), std::string::npos) << error;
+  EXPECT_NE(error.find("60.0, "), std::string::npos) << error;
+  EXPECT_NE(error.find("add a click between them"), std::string::npos) << error;
+}
+
 TEST(PathCheck, AcceptsALoopWhoseArmsLieSideBySide)
 {
   EXPECT_EQ(errorOf({{0, 0, 0}, {0, 0, 60}, {0, 11, 60}, {0, 11, 0}}), "");

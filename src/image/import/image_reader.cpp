@@ -16,6 +16,7 @@
 #include "image/import/complete_file.h"
 #include "image/import/image_values.h"
 #include "image/import/itk_image.h"
+#include "image/import/label_values.h"
 #include "image/import/meta_header.h"
 #include "image/import/nifti_file.h"
 #include "image/slice_stack.h"
@@ -211,6 +212,16 @@ std::optional<Modality> modalityOf(const std::string& field, const ImportOptions
   return options.modality.value_or(field == "CT" ? Modality::kCt : Modality::kOther);
 }
 
+/** Stores the values of an image, or the chosen labels of a label map. */
+void store(const ImageValues& read, const std::optional<Modality>& modality, const ImportOptions& options,
+           const std::string& path, Volume& volume)
+{
+  if (options.labels.empty())
+    storeValues(read, modality, path, volume);
+  else
+    storeLabels(read, options.labels, path, volume);
+}
+
 Volume readSeries(const std::string& folder, const ImportOptions& options)
 {
   std::vector<Slice> slices;
@@ -239,7 +250,7 @@ Volume readSeries(const std::string& folder, const ImportOptions& options)
   if (read.values.size() != voxels)
     throw InputError(folder, "", "its slices hold other numbers of pixels than their headers; export the series again");
   subtract(options.subtract, read.values);
-  storeValues(read, modalityOf(modality, options), folder, volume);
+  store(read, modalityOf(modality, options), options, folder, volume);
   return volume;
 }
 
@@ -354,7 +365,7 @@ Volume readFile(const std::string& file, const ImportOptions& options)
     readByItk(file, options, volume, read);
   read.columns = volume.grid.size.x();
   subtract(options.subtract, read.values);
-  storeValues(read, options.modality, file, volume);
+  store(read, options.modality, options, file, volume);
   return volume;
 }
 

@@ -41,42 +41,11 @@ bool holdsAir(const std::vector<float>& values)
   return std::any_of(values.begin(), values.end(), [](float value) { return value < kBelowFat; });
 }
 
-/** Voxels of one value, and those of them beside an equal one along i. */
-struct Coherence
-{
-  std::size_t voxels = 0;
-  std::size_t beside_equal = 0;
-};
-
-/** Coherence of each value; empty if one is no natural number or zero, or for more values than label maps have. */
-std::map<float, Coherence> coherenceOfLabels(const ImageValues& image)
-{
-  constexpr std::size_t kMostLabels = 1000;
-  const std::vector<float>& values = image.values;
-  const auto columns = static_cast<std::size_t>(image.columns);
-  std::map<float, Coherence> labels;
-  for (std::size_t n = 0; n < values.size(); ++n)
-  {
-    const float value = values[n];
-    if (value < 0.0F || value != std::nearbyint(value))
-      return {};
-    Coherence& label = labels[value];
-    if (labels.size() > kMostLabels)
-      return {};
-    const bool left = n % columns > 0 && values[n - 1] == value;
-    const bool right = n % columns + 1 < columns && values[n + 1] == value;
-    ++label.voxels;
-    label.beside_equal += left || right ? 1U : 0U;
-  }
-  return labels;
-}
-
 /** Recognises a mask (zero and one other value) and a label map: few natural numbers, each in coherent regions. In a
  * grey image most of the values are scattered. */
-bool isLabelMap(const ImageValues& image)
+bool isLabelMap(const std::map<float, Coherence>& labels)
 {
   constexpr double kCoherentLabels = 0.8;  // share of the labels
-  const std::map<float, Coherence> labels = coherenceOfLabels(image);
   if (labels.size() < 2 || labels.begin()->first != 0.0F)
     return false;
   if (labels.size() == 2)
@@ -146,15 +115,51 @@ Modality modalityOf(const std::vector<float>& values, const std::string& path)
 
 }  // namespace
 
+std::map<float, Coherence> coherenceOfLabels(const ImageValues& image)
+{
+  constexpr std::size_t kMostLabels = 1000;
+  const std::vector<float>& values = image.values;
+  const auto columns = static_cast<std::size_t>(image.columns);
+  std::map<float, Coherence> labels;
+  auto entry = labels.end();  // of the voxel before
+  for (std::size_t n = 0; n < values.size(); ++n)
+  {
+    const float value = values[n];
+    if (value != std::nearbyint(value))
+      return {};
+    if (entry == labels.end() || entry->first != value)
+      entry = labels.emplace(value, Coherence()).first;
+    if (labels.size() > kMostLabels)
+      return {};
+    Coherence& label = entry->second;
+    const bool left = n % columns > 0 && values[n - 1] == value;
+    const bool right = n % columns + 1 < columns && values[n + 1] == value;
+    ++label.voxels;
+    label.beside_equal += left || right ? 1U : 0U;
+  }
+  return labels;
+}
+
+std::string listedLabels(const std::map<float, Coherence>& labels)
+{
+  constexpr std::size_t kNamed = 24;
+  std::string list;
+  std::size_t number = 0;
+  for (const auto& [label, count] : labels)
+    if (label != 0.0F && number++ < kNamed)
+      list += (list.empty() ? "" : ", ") + formatted("%.0f", label);
+  return list + (number > kNamed ? " and " + std::to_string(number - kNamed) + " more" : "");
+}
+
 void storeValues(const ImageValues& image, std::optional<Modality> modality, const std::string& path, Volume& volume)
 {
   const std::vector<float>& values = image.values;
   requirePlausible(values, path);
-  if (isLabelMap(image))
-    throw InputError(
-        path, "",
-        "is a label map, not an image: it marks voxels by natural numbers; export the segment as STL in 3D "
-        "Slicer and give it to vessel_prepare, or give the image that the labels were made from");
+  if (const std::map<float, Coherence> labels = coherenceOfLabels(image); isLabelMap(labels))
+    throw InputError(path, "",
+                     "is a label map, not an image: it holds the label(s) " + listedLabels(labels) +
+                         "; make a vessel of a label by vessel_segment --label N, or give the image that the labels "
+                         "were made from");
   if (modality.value_or(Modality::kCt) == Modality::kCt)
     requireHounsfieldUnits(image, path);
   volume.modality = modality ? *modality : modalityOf(values, path);

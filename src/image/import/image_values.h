@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +18,19 @@ struct ImageValues
   int columns = 1;     ///< number of voxels along i
   unsigned bits = 16;  ///< of a value in the file
 };
+
+/** Voxels of one value, and those of them beside an equal one along i. */
+struct Coherence
+{
+  std::size_t voxels = 0;
+  std::size_t beside_equal = 0;
+};
+
+/** Coherence of each value, ascending; empty if one is no whole number, and for more values than label maps have. */
+std::map<float, Coherence> coherenceOfLabels(const ImageValues& image);
+
+/** Labels of a map without 0 for messages, e.g. "7, 52". */
+std::string listedLabels(const std::map<float, Coherence>& labels);
 
 /** Checks that the values are those of a CT or another image, and stores them in 16 bit.
  *  @param modality chosen by the user or named by the file; empty: a CT if it holds air

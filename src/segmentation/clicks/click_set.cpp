@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/quantities.h"
+#include "common/text/plain_name.h"
 #include "segmentation/clicks/slicer_markups.h"
 #include "yaml/reader.h"
 
@@ -33,15 +34,19 @@ BranchClicks readBranch(yaml::Fields& fields, const Frame& frame)
   fields.number("largest_radius", branch.largest_radius, quantities::kNumber,
                 yaml::Range::between(0.0, kLargestRadius / frame.unit));
   branch.largest_radius *= frame.unit;
+  branch.are_ends = fields.has("ends");
+  if (branch.are_ends && fields.has("clicks"))
+    fields.reject("ends", "excludes clicks; give those of one branch as clicks, or the ends of a tree as ends");
+  const std::string key = branch.are_ends ? "ends" : "clicks";
   std::vector<std::vector<double>> points;
-  fields.rows("clicks", points, {3, quantities::kNumber});
+  fields.rows(key, points, {3, quantities::kNumber});
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     Click click;
     click.position = frame.unit * Eigen::Map<const Eigen::Vector3d>(points[k].data());
     if (frame.is_ras)
       click.position.head<2>() *= -1.0;
-    click.where = fields.place("clicks." + std::to_string(k));
+    click.where = fields.place(key + "." + std::to_string(k));
     branch.clicks.push_back(click);
   }
   return branch;
@@ -69,13 +74,6 @@ bool endsWith(const std::string& text, const std::string& end)
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool isPlainName(const std::string& name)
-{
-  return !name.empty() && name.size() <= 100 &&
-         std::all_of(name.begin(), name.end(),
-                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; });
-}
-
 /** Checks that the clicks of a branch lie at different places. */
 void requireDifferent(const BranchClicks& branch, const std::string& file)
 {
@@ -91,8 +89,11 @@ void check(const ClickSet& set)
 {
   for (const BranchClicks& branch : set.branches)
   {
-    if (!isPlainName(branch.name))
-      throw InputError(set.file, branch.name, "a branch's name consists of letters, digits, '_', '-' and '.'");
+    if (branch.name != plainNameOf(branch.name))
+      throw InputError(set.file, branch.name,
+                       "a branch's name consists of at most " + std::to_string(kLongestPlainName) +
+                           " bytes of letters of any script, digits, '_', '-' and '.', in UTF-8; e.g. " +
+                           plainNameOf(branch.name));
     if (branch.clicks.size() < 2)
       throw InputError(set.file, branch.name,
                        "has " + std::to_string(branch.clicks.size()) +
@@ -103,6 +104,7 @@ void check(const ClickSet& set)
                          "is no position in a patient; check the numbers and the unit");
     requireDifferent(branch, set.file);
   }
+  requireDifferentNames(set);
 }
 
 }  // namespace
@@ -127,19 +129,22 @@ ClickSet readClicks(const std::vector<std::string>& files)
   if (files.empty())
     throw InputError("clicks", "", kRemedy);
   ClickSet all;
-  std::set<std::string> names;
   for (const std::string& file : files)
   {
     const ClickSet set = readClicks(file);
     all.file += (all.file.empty() ? "" : " + ") + file;
-    for (const BranchClicks& branch : set.branches)
-    {
-      if (!names.insert(branch.name).second)
-        throw InputError(file, branch.name, "is the name of two branches; rename one of them");
-      all.branches.push_back(branch);
-    }
+    all.branches.insert(all.branches.end(), set.branches.begin(), set.branches.end());
   }
+  requireDifferentNames(all);
   return all;
+}
+
+void requireDifferentNames(const ClickSet& clicks)
+{
+  std::set<std::string> names;
+  for (const BranchClicks& branch : clicks.branches)
+    if (!names.insert(branch.name).second)
+      throw InputError(clicks.file, branch.name, "is the name of two branches; rename one of them");
 }
 
 }  // namespace endovascular_sim::segmentation

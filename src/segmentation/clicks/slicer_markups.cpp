@@ -1,14 +1,17 @@
 #include "segmentation/clicks/slicer_markups.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "common/error.h"
-#include "common/file/file_name.h"
 #include "common/input_file.h"
+#include "common/text/csv_fields.h"
+#include "common/text/plain_name.h"
 #include "common/units.h"
 
 namespace endovascular_sim::segmentation
@@ -18,6 +21,9 @@ namespace
 
 constexpr auto kRemedy = "save the markups in 3D Slicer as .mrk.json or .fcsv";
 using units::kMillimetre;
+
+constexpr std::size_t kSelectedColumn = 9;  ///< of a fiducial list
+constexpr std::size_t kLabelColumn = 11;    ///< likewise
 
 /** Labels that 3D Slicer gives by itself. */
 const std::set<std::string> kDefaultLabels = {
@@ -56,28 +62,50 @@ std::string stemOf(std::string label)
   return label;
 }
 
+/** True for the name of a list that SlicerVMTK makes of the ends of a vessel. */
+bool isListOfEnds(std::string name)
+{
+  const std::string begin = "endpoint";
+  name = name.substr(0, begin.size());
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name == begin;
+}
+
+/** Control point of a list. */
+struct ControlPoint
+{
+  std::string label;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< LPS [m]
+  std::string where;                                   ///< place in the file
+  bool is_selected = true;                             ///< false: beginning of a tree, in a list of its ends
+};
+
 /** Collects labelled points into branches, in the order of their first points. */
 class Grouping
 {
 public:
   explicit Grouping(std::string file) : file_(std::move(file)) {}
 
-  /** @param group name of the list of points; points of different lists never share a branch */
-  void add(const std::string& label, const Eigen::Vector3d& position, const std::string& where, int list)
+  /** @param list number of the list of points; points of different lists never share a branch */
+  void add(const ControlPoint& point, int list)
   {
-    const std::pair<int, std::string> key(list, stemOf(label));
+    const std::pair<int, std::string> key(list, stemOf(point.label));
     auto found = std::find(keys_.begin(), keys_.end(), key);
     if (found == keys_.end())
     {
       keys_.push_back(key);
       branches_.emplace_back();
+      begins_.emplace_back();
       found = keys_.end() - 1;
     }
-    branches_[static_cast<std::size_t>(found - keys_.begin())].clicks.push_back({position, where});
-    if (label.empty() && unlabelled_.count(list) == 0)
-      unlabelled_[list] = where;
-    else if (!label.empty())
-      labels_[list] = label;
+    const auto branch = static_cast<std::size_t>(found - keys_.begin());
+    if (!point.is_selected && !begins_[branch])
+      begins_[branch] = branches_[branch].clicks.size();
+    branches_[branch].clicks.push_back({point.position, point.where});
+    if (point.label.empty() && unlabelled_.count(list) == 0)
+      unlabelled_[list] = point.where;
+    else if (!point.label.empty())
+      labels_[list] = point.label;
   }
 
   ClickSet take()
@@ -97,7 +125,11 @@ public:
       std::string own = is_default ? name : keys_[k].second;
       if (is_default && branches_.size() > 1)
         own += "_" + std::to_string(k + 1);
-      branches_[k].name = fileNameOf(own);
+      branches_[k].name = plainNameOf(own);
+      branches_[k].are_ends = isListOfEnds(own);
+      if (std::vector<Click>& clicks = branches_[k].clicks; branches_[k].are_ends && begins_[k])
+        std::rotate(clicks.begin(), clicks.begin() + static_cast<std::ptrdiff_t>(*begins_[k]),
+                    clicks.begin() + static_cast<std::ptrdiff_t>(*begins_[k]) + 1);
     }
     ClickSet set;
     set.file = file_;
@@ -109,24 +141,10 @@ private:
   std::string file_;
   std::vector<std::pair<int, std::string>> keys_;
   std::vector<BranchClicks> branches_;
-  std::map<int, std::string> unlabelled_;  ///< first point without a label of each list
-  std::map<int, std::string> labels_;      ///< a label of each list
+  std::vector<std::optional<std::size_t>> begins_;  ///< first point of each branch that is not selected
+  std::map<int, std::string> unlabelled_;           ///< first point without a label of each list
+  std::map<int, std::string> labels_;               ///< a label of each list
 };
-
-/** Fields of a line that commas divide. Quotes enclose fields with commas. */
-std::vector<std::string> fieldsOf(const std::string& line)
-{
-  std::vector<std::string> fields(1);
-  bool is_quoted = false;
-  for (const char c : line)
-    if (c == '"')
-      is_quoted = !is_quoted;
-    else if (c == ',' && !is_quoted)
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  return fields;
-}
 
 }  // namespace
 
@@ -157,7 +175,9 @@ ClickSet readMarkupsJson(const std::string& file)
         const auto p = point.at("position").get<std::vector<double>>();
         if (p.size() != 3)
           throw InputError(file, where, "its position must have three numbers");
-        grouping.add(point.value("label", ""), unit * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where, list);
+        grouping.add({point.value("label", ""), unit * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where,
+                      point.value("selected", true)},
+                     list);
       }
     }
   }
@@ -173,7 +193,6 @@ ClickSet readFiducialCsv(const std::string& file)
   std::ifstream in = openInputFile(file, kRemedy);
   Grouping grouping(file);
   double sign = 0.0;
-  std::size_t label_column = 11;
   int number = 0;
   for (std::string line; std::getline(in, line);)
   {
@@ -193,7 +212,7 @@ ClickSet readFiducialCsv(const std::string& file)
       }
       continue;
     }
-    const std::vector<std::string> fields = fieldsOf(line);
+    const std::vector<std::string> fields = csvFields(line);
     double p[3];
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -205,8 +224,10 @@ ClickSet readFiducialCsv(const std::string& file)
     if (sign == 0.0)
       throw InputError(file, where, std::string("no line '# CoordinateSystem = LPS' before the points; ") + kRemedy);
     // A remark may follow the label: "LAD-1, ostium".
-    const std::string label = fields.size() > label_column ? fields[label_column] : "";
-    grouping.add(label.substr(0, label.find(',')), kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]), where,
+    const std::string label = fields.size() > kLabelColumn ? fields[kLabelColumn] : "";
+    const bool is_selected = fields.size() <= kSelectedColumn || fields[kSelectedColumn] != "0";
+    grouping.add({label.substr(0, label.find(',')), kMillimetre * Eigen::Vector3d(sign * p[0], sign * p[1], p[2]),
+                  where, is_selected},
                  0);
   }
   return grouping.take();

@@ -6,76 +6,25 @@
 
 #include "common/error.h"
 #include "common/text/format.h"
+#include "segmentation/lumen/contrast.h"
+#include "segmentation/lumen/local_lumen.h"
 
 namespace endovascular_sim::segmentation
 {
 namespace
 {
 
-// Hounsfield units. Contrast-filled blood of a CT angiogram lies between 180 and 800.
-constexpr double kAir = -300.0;
-constexpr double kFat = -20.0;
-constexpr double kLeastContrast = 150.0;
-constexpr double kMostContrast = 800.0;
-constexpr double kSoftTissue = 60.0;
 constexpr double kDifferentVessels = 0.3;  ///< difference of the lumen at two clicks, in contrasts, that is reported
+constexpr double kWider = 1.6;             ///< bound of the radius, in radii at the widest click
+constexpr double kFromNarrow = 3.0;        ///< likewise, at the narrowest one
+constexpr double kBoundMargin = 8e-4;      ///< [m]
 constexpr double kSearch = 0.01;           ///< radius within which a lumen is proposed [m]
-constexpr double kFarthestWall = 0.03;     ///< longest ray to the wall [m]
 
-double quantile(std::vector<double>& values, double share)
+/** Bound of the radius of a lumen that has two radii at its clicks [m]. A click in the parent of a branch is too wide.
+ */
+double boundOf(double widest, double narrowest)
 {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-/** Values on a cube of points around a point. */
-std::vector<double> around(const Scan& scan, const Eigen::Vector3d& p, double pitch, int steps)
-{
-  std::vector<double> values;
-  for (int c = -steps; c <= steps; ++c)
-    for (int b = -steps; b <= steps; ++b)
-      for (int a = -steps; a <= steps; ++a)
-        values.push_back(scan.at(p + pitch * Eigen::Vector3d(a, b, c)));
-  return values;
-}
-
-double localValue(const Scan& scan, const Eigen::Vector3d& p)
-{
-  std::vector<double> values = around(scan, p, 2.5e-4, 2);
-  return quantile(values, 0.6);
-}
-
-/** Directions on a sphere, by the golden angle. */
-std::vector<Eigen::Vector3d> sphere(int n)
-{
-  std::vector<Eigen::Vector3d> directions;
-  for (int k = 0; k < n; ++k)
-  {
-    const double z = 1.0 - (2.0 * k + 1.0) / n;
-    const double angle = k * M_PI * (3.0 - std::sqrt(5.0));
-    const double r = std::sqrt(1.0 - z * z);
-    directions.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
-  }
-  return directions;
-}
-
-double toWall(const Scan& scan, const Eigen::Vector3d& p, const Eigen::Vector3d& direction, double threshold)
-{
-  for (double s = 0.0; s < kFarthestWall; s += 1e-4)
-    if (scan.at(p + s * direction) < threshold)
-      return s;
-  return kFarthestWall;
-}
-
-/** Radius of the lumen: half of the shortest chord through the point. */
-double radiusAt(const Scan& scan, const Eigen::Vector3d& p, double threshold)
-{
-  double shortest = 2.0 * kFarthestWall;
-  for (const Eigen::Vector3d& direction : sphere(160))
-    if (direction.z() >= 0.0)
-      shortest = std::min(shortest, toWall(scan, p, direction, threshold) + toWall(scan, p, -direction, threshold));
-  return 0.5 * shortest;
+  return std::min(kWider * widest, kFromNarrow * narrowest) + kBoundMargin;
 }
 
 /** Corner of the image [m] in whole millimetres. */
@@ -168,34 +117,23 @@ private:
   {
     if (is_ct_)
       return kSoftTissue;
-    std::vector<double> values = around(scan_, p, (radius + 2e-3) / 2.0, 3);
+    std::vector<double> values = valuesAround(scan_, p, (radius + 2e-3) / 2.0, 3);
     return quantile(values, 0.3);
-  }
-
-  std::string tissueName(double value) const
-  {
-    if (value < kAir)
-      return "air or lung";
-    if (value < kFat)
-      return "fat";
-    if (value < kLeastContrast)
-      return "soft tissue or the wall";
-    return "bone, calcium or metal";
   }
 
   /** Nearest point that is as bright as the lumen of the other clicks, and its surroundings are. */
   std::optional<Eigen::Vector3d> nearestLumen(const Eigen::Vector3d& p) const
   {
     const double reference = reference_ > 0.0 ? reference_ : 350.0;
-    const double least = is_ct_ ? kSoftTissue + 0.75 * (reference - kSoftTissue) : 0.75 * reference;
+    const double least = is_ct_ ? kSoftTissue + kInLumen * (reference - kSoftTissue) : kInLumen * reference;
     const double most = is_ct_ ? std::min(kMostContrast, 1.5 * reference) : 1e30;
     for (double r = 0.0; r <= kSearch; r += 3e-4)
-      for (const Eigen::Vector3d& direction : sphere(1 + static_cast<int>(4.0 * M_PI * r * r / 9e-8)))
+      for (const Eigen::Vector3d& direction : directionsOfSphere(1 + static_cast<int>(4.0 * M_PI * r * r / 9e-8)))
       {
         const Eigen::Vector3d q = p + r * direction;
         if (!scan_.contains(q) || scan_.at(q) < least || scan_.at(q) > most)
           continue;
-        std::vector<double> values = around(scan_, q, 3e-4, 1);
+        std::vector<double> values = valuesAround(scan_, q, 3e-4, 1);
         const double darkest = quantile(values, 0.1);
         const double brightest = quantile(values, 0.9);
         if (darkest > least && brightest < most)
@@ -218,8 +156,9 @@ private:
     const Eigen::Vector3d p = scan_.toGrid(click.position);
     const std::string number = std::to_string(static_cast<int>(std::lround(value)));
     if (is_ct_ && (value < kLeastContrast || value > kMostContrast))
-      reject(branch, click, "lies in " + tissueName(value) + " (" + number + " HU), not in the lumen" + proposal(p));
-    if (reference_ > 0.0 && value < background + 0.45 * (reference_ - background) && is_ct_)
+      reject(branch, click,
+             std::string("lies in ") + tissueName(value) + " (" + number + " HU), not in the lumen" + proposal(p));
+    if (reference_ > 0.0 && value < background + kOnWall * (reference_ - background) && is_ct_)
       reject(branch, click,
              "lies on the wall (" + number + " HU; the lumen has about " +
                  std::to_string(static_cast<int>(std::lround(reference_))) + " HU)" + proposal(p));
@@ -247,7 +186,7 @@ private:
           if (offset.norm() > range || !scan_.contains(p + offset))
             continue;
           double sum = 0.0;
-          for (const double value : around(scan_, p + offset, pitch, 1))
+          for (const double value : valuesAround(scan_, p + offset, pitch, 1))
             sum += value;
           if (sum > most + 1e-9 * std::abs(most))
           {
@@ -274,11 +213,11 @@ private:
         lumen.position = brightestNear(lumen.position);
       lumen.value = localValue(scan_, lumen.position);
       double own = backgroundAt(lumen.position, 5e-3);
-      lumen.radius = radiusAt(scan_, lumen.position, 0.5 * (lumen.value + own));
+      lumen.radius = lumenRadius(scan_, lumen.position, 0.5 * (lumen.value + own));
       if (!is_ct_)
       {
         own = backgroundAt(lumen.position, 1.5 * lumen.radius);
-        lumen.radius = radiusAt(scan_, lumen.position, 0.5 * (lumen.value + own));
+        lumen.radius = lumenRadius(scan_, lumen.position, 0.5 * (lumen.value + own));
       }
       requireLumen(branch, click, lumen.value, own);
       widest = std::max(widest, lumen.radius);
@@ -287,8 +226,8 @@ private:
       checked.clicks.push_back(lumen);
     }
     checked.background = background;
-    checked.largest_radius =
-        branch.largest_radius > 0.0 ? branch.largest_radius : std::min(1.6 * widest, 3.0 * narrowest) + 8e-4;
+    checked.given_radius = branch.largest_radius;
+    checked.largest_radius = branch.largest_radius > 0.0 ? branch.largest_radius : boundOf(widest, narrowest);
     const double first = checked.clicks.front().value;
     const double last = checked.clicks.back().value;
     if (is_ct_ && std::abs(first - last) > kDifferentVessels * (std::max(first, last) - background))
@@ -311,6 +250,26 @@ LumenRange CheckedBranch::range(std::size_t first) const
   const double a = clicks[first].value;
   const double b = clicks[first + 1].value;
   return {std::min(a, b), std::max(a, b), background};
+}
+
+LumenRange CheckedBranch::wholeRange() const
+{
+  LumenRange whole{clicks.front().value, clicks.front().value, background};
+  for (const LumenAtClick& click : clicks)
+  {
+    whole.low = std::min(whole.low, click.value);
+    whole.high = std::max(whole.high, click.value);
+  }
+  return whole;
+}
+
+double CheckedBranch::radiusBound(std::size_t first) const
+{
+  if (isBounded())
+    return given_radius;
+  const double a = clicks[first].radius;
+  const double b = clicks[first + 1].radius;
+  return boundOf(std::max(a, b), std::min(a, b));
 }
 
 std::vector<CheckedBranch> checkClicks(const Scan& scan, const ClickSet& clicks, std::vector<std::string>& warnings)

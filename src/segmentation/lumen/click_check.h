@@ -26,10 +26,21 @@ struct CheckedBranch
   std::string name;
   std::vector<LumenAtClick> clicks;
   double background = 0.0;      ///< value around the lumen
-  double largest_radius = 0.0;  ///< [m]
+  double given_radius = 0.0;    ///< bound of the lumen's radius by the user [m]; 0: none
+  double largest_radius = 0.0;  ///< bound of the lumen's radius along the branch [m]
+
+  /** True if the user gives the bound of the radius. */
+  bool isBounded() const { return given_radius > 0.0; }
 
   /** Brightness of the lumen between two successive clicks. */
   LumenRange range(std::size_t first) const;
+
+  /** Brightness of the lumen at all clicks. */
+  LumenRange wholeRange() const;
+
+  /** Bound of the lumen's radius between two successive clicks: 1.6 times the wider one, 3 times the narrower one, or
+   * that of the user [m]. */
+  double radiusBound(std::size_t first) const;
 };
 
 /** Checks that all clicks lie in a contrast-filled lumen, and measures it there.

@@ -36,12 +36,22 @@ double EdgeModel::discInMiddle(double radius) const
   return -std::expm1(-0.5 * radius * radius / (spread_ * spread_));
 }
 
+double EdgeModel::radiusOfMiddle(double part) const
+{
+  return spread_ * std::sqrt(-2.0 * std::log1p(-part));
+}
+
 double EdgeModel::beyondWall(double radius) const
 {
   if (wall_ <= 0.0)
     return 0.0;
   const double r = std::max(radius, spread_);
   return std::min(1.0, std::sqrt((r + wall_) / r) * 0.5 * std::erfc(wall_ / spread_ / std::sqrt(2.0)));
+}
+
+double EdgeModel::beyondGap(double gap) const
+{
+  return 0.5 * std::erfc(gap / spread_ / std::sqrt(2.0));
 }
 
 double EdgeModel::edgeValue(double radius, double lumen, double wall, double beyond) const

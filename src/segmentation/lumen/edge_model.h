@@ -30,8 +30,14 @@ public:
   /** 1 − e^{−ρ²/2}: value in the middle of a blurred disc of value 1. */
   double discInMiddle(double radius) const;
 
+  /** Inverse of discInMiddle(): σ √(−2 ln(1 − part)) [m]. */
+  double radiusOfMiddle(double part) const;
+
   /** Share of the surrounding behind the wall in the value at the edge. */
   double beyondWall(double radius) const;
+
+  /** Share of bone in the value at the edge, Φ(−g/σ), for a plane surface at a distance g behind the edge [m]. */
+  double beyondGap(double gap) const;
 
   double spread() const { return spread_; }
   double wall() const { return wall_; }

@@ -29,8 +29,8 @@ struct Block
 class Search
 {
 public:
-  Search(const Scan& scan, const LumenRange& range, const WideRegions& wide)
-    : scan_(scan), range_(range), wide_(wide), blocks_((scan.size().array() + kEdge - 1) / kEdge)
+  Search(const Scan& scan, const LumenRange& range, const WideRegions& wide, double least)
+    : scan_(scan), range_(range), wide_(wide), least_(least), blocks_((scan.size().array() + kEdge - 1) / kEdge)
   {
     table_.resize(static_cast<std::size_t>(blocks_.x()) * static_cast<std::size_t>(blocks_.y()) *
                   static_cast<std::size_t>(blocks_.z()));
@@ -87,6 +87,8 @@ public:
         const Eigen::Vector3i w = v + steps_[n];
         if ((w.array() < 0).any() || (w.array() >= scan_.size().array()).any())
           continue;
+        if (w != end && scan_.value(w.x(), w.y(), w.z()) < least_)
+          continue;
         const float time = entry.time + 0.5F * lengths_[n] * (own + slownessOf(w));
         Block& block = blockOf(w);
         const std::size_t place = placeOf(w);
@@ -98,6 +100,8 @@ public:
         }
       }
     }
+    if (begin != end && blockOf(end).from[placeOf(end)] < 0)
+      return {};
     std::vector<Eigen::Vector3i> path{end};
     while (path.back() != begin)
     {
@@ -153,6 +157,7 @@ private:
   const Scan& scan_;
   const LumenRange& range_;
   const WideRegions& wide_;
+  double least_;
   Eigen::Vector3i blocks_;
   std::vector<std::unique_ptr<Block>> table_;
   std::array<Eigen::Vector3i, 27> steps_;
@@ -183,11 +188,13 @@ void findGap(const Scan& scan, const LumenRange& range, MinimalPath& path)
 }  // namespace
 
 MinimalPath minimalPath(const Scan& scan, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                        const LumenRange& range, const WideRegions& wide)
+                        const LumenRange& range, const WideRegions& wide, double least)
 {
   MinimalPath path;
-  for (const Eigen::Vector3i& voxel : Search(scan, range, wide).run(scan.voxelOf(from), scan.voxelOf(to)))
+  for (const Eigen::Vector3i& voxel : Search(scan, range, wide, least).run(scan.voxelOf(from), scan.voxelOf(to)))
     path.points.push_back(scan.centreOf(voxel));
+  if (path.points.empty())
+    return path;
   if (path.points.size() < 2)
     path.points.push_back(to);
   path.points.front() = from;

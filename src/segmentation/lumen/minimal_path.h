@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,15 @@ struct LumenRange
   double threshold() const { return low - 2.2 * width(); }
 };
 
+/** Length of a polyline [m]. */
+inline double lengthOf(const std::vector<Eigen::Vector3d>& points)
+{
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+    length += (points[k + 1] - points[k]).norm();
+  return length;
+}
+
 /** Path between two points of an image. */
 struct MinimalPath
 {
@@ -31,16 +41,24 @@ struct MinimalPath
   double longest_gap = 0.0;                                ///< longest stretch outside of the lumen [m]
   Eigen::Vector3d gap_location = Eigen::Vector3d::Zero();  ///< middle of that stretch [m]
 
+  /** Length of the path [m]. */
+  double length() const { return lengthOf(points); }
+
   /** True if the path leaves the lumen for more than 2 mm: its ends lie in two vessels. */
   bool leavesLumen() const { return longest_gap > 2e-3; }
 };
+
+/** Value below which no voxel is closed. */
+constexpr double kNoLeastValue = -1e30;
 
 /** Path of least travel time through the lumen, over the 26 neighbours of voxels (Dijkstra's algorithm with the
  * straight distance as bound). Speed: exp(−½ z²), z the deviation from the range in widths, not below 0.004; in wide
  * regions not above 0.006. Values above the range slow the path in CT only, where they are calcium. The whole image is
  * open to the path; memory is used only where it searches.
- *  @param from, to points of the grid frame inside the image [m] */
+ *  @param from, to points of the grid frame inside the image [m]
+ *  @param least closes darker voxels
+ *  @return no points if all ways are closed */
 MinimalPath minimalPath(const Scan& scan, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                        const LumenRange& range, const WideRegions& wide);
+                        const LumenRange& range, const WideRegions& wide, double least = kNoLeastValue);
 
 }  // namespace endovascular_sim::segmentation

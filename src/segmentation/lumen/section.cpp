@@ -1,5 +1,6 @@
 #include "segmentation/lumen/section.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace endovascular_sim::segmentation
@@ -14,6 +15,17 @@ constexpr double kAngle = 2.0 * M_PI / kRays;  ///< between two rays
 Eigen::Vector3d Section::direction(int ray) const
 {
   return std::cos(ray * kAngle) * u + std::sin(ray * kAngle) * w;
+}
+
+double Section::edges() const
+{
+  const auto is_edge = [](RayEnd end) { return end != RayEnd::kOpen && end != RayEnd::kDropped; };
+  return static_cast<double>(std::count_if(ends.begin(), ends.end(), is_edge)) / kRays;
+}
+
+double Section::share(RayEnd end) const
+{
+  return static_cast<double>(std::count(ends.begin(), ends.end(), end)) / kRays;
 }
 
 double Section::radiusAt(double angle) const

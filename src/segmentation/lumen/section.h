@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,16 @@ namespace endovascular_sim::segmentation
 /** Number of rays of a cross-section. */
 constexpr int kRays = 48;
 
+/** Finding at the end of a ray. */
+enum class RayEnd : std::uint8_t
+{
+  kOpen,     ///< no edge up to the reach of the section
+  kDropped,  ///< an edge that does not fit those of the neighbours, e.g. in a side branch
+  kWall,     ///< edge of the lumen
+  kCalcium,  ///< plaque that borders on the lumen
+  kBone,     ///< edge of the lumen before bone, with a soft gap between the two
+};
+
 /** Cross-section of the lumen: a star-shaped contour about a point of the centreline. */
 struct Section
 {
@@ -21,9 +32,17 @@ struct Section
   Eigen::Vector3d u = Eigen::Vector3d::UnitX();        ///< unit vector of ray 0
   Eigen::Vector3d w = Eigen::Vector3d::UnitY();        ///< tangent × u
   std::array<double, kRays> radii{};                   ///< distance of the edge along the rays, counter-clockwise [m]
+  std::array<RayEnd, kRays> ends{};                    ///< what the rays have found
+  double reach = 0.0;                                  ///< length of the rays [m]
   double lumen = 0.0;                                  ///< value of the lumen
-  double edges = 0.0;                                  ///< share of the rays that have an edge of their own
-  double calcium = 0.0;                                ///< share of the rays that end at calcium
+  double middle = 1.0;                                 ///< contrast in the middle, as a share of that of the lumen
+  double blur = 0.0;                                   ///< standard deviation of the blur across the section [m]
+
+  /** Share of the rays that have an edge of their own. */
+  double edges() const;
+
+  /** Share of the rays with a finding. */
+  double share(RayEnd end) const;
 
   /** Direction of a ray. */
   Eigen::Vector3d direction(int ray) const;

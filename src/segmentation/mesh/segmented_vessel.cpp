@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "segmentation/branch_verdict.h"
 #include "segmentation/join_branches.h"
 #include "segmentation/lumen_centreline.h"
 #include "segmentation/metal_check.h"
 #include "segmentation/surface/lumen_surface.h"
+#include "segmentation/tree_of_ends.h"
 #include "vessel/prepare/open_ends.h"
 #include "vessel/prepare/prepare.h"
 
@@ -79,6 +81,8 @@ vessel::PreparedVessel prepared(const geometry::TriangleMesh& surface, const Ves
   options.max_distance = settings.max_distance;
   options.voxel = settings.max_distance;  // the surface has no features below its lattice
   options.smooth = true;
+  options.centreline = false;  // that of the sections is known
+  options.full_report = false;
   try
   {
     return vessel::prepareVessel(surface, source, options, observer.stage);
@@ -112,16 +116,21 @@ void open(const std::vector<vessel::CentrelineEnd>& ends, const Scan& scan, doub
 
 }  // namespace
 
-SegmentedVessel segmentVessel(const Scan& scan, const ClickSet& clicks, const VesselSettings& settings,
+SegmentedVessel segmentVessel(const Scan& scan, const ClickSet& given, const VesselSettings& settings,
                               const std::string& source, const VesselObserver& observer)
 {
   begin(observer, "segmenting the branches");
+  std::vector<std::string> warnings;
+  const ClickSet clicks = withBranchPerEnd(scan, given, settings.edge, warnings);
   Segmentation result = segmentBranches(scan, clicks, settings.edge, settings.threads);
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   joinBranches(scan, clicks, settings.edge, settings.threads, result);
   SegmentedVessel vessel;
   vessel.branches = std::move(result.branches);
   vessel.warnings = std::move(result.warnings);
   for (const std::string& warning : metalWarnings(scan, vessel.branches))
+    vessel.warnings.push_back(warning);
+  for (const std::string& warning : throatWarnings(scan, vessel.branches))
     vessel.warnings.push_back(warning);
   vessel.centreline = lumenCentreline(vessel.branches);
   const std::vector<vessel::CentrelineEnd> ends = wantedEnds(settings, scan, vessel.centreline, source);

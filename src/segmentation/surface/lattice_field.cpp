@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "common/numerics/parallel_for.h"
 #include "segmentation/surface/tube.h"
@@ -115,6 +117,37 @@ LatticeField::LatticeField(const std::vector<LumenBranch>& branches, double spac
                       values[at++] = static_cast<float>(united.value());
                     }
               });
+}
+
+LatticeField::LatticeField(const std::vector<float>& values, const Eigen::Vector3i& size) : spacing_(1.0)
+{
+  const auto valueAt = [&](const Eigen::Vector3i& p)
+  {
+    if ((p.array() < 0).any() || (p.array() >= size.array()).any())
+      return kOutside;
+    return values[(static_cast<std::size_t>(p.z()) * static_cast<std::size_t>(size.y()) +
+                   static_cast<std::size_t>(p.y())) *
+                      static_cast<std::size_t>(size.x()) +
+                  static_cast<std::size_t>(p.x())];
+  };
+  // Blocks with a negative value, and those before and behind, whose cubes reach it.
+  std::set<Key> keys;
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i)
+        if (valueAt({i, j, k}) < 0.0F)
+          for (int corner = 0; corner < 8; ++corner)
+            keys.insert({(i + ((corner & 1) != 0 ? 1 : -1)) / kEdge, (j + ((corner & 2) != 0 ? 1 : -1)) / kEdge,
+                         (k + ((corner & 4) != 0 ? 1 : -1)) / kEdge});
+  for (const Key& key : keys)
+  {
+    Values& block = blocks_[key];
+    std::size_t at = 0;
+    for (int c = 0; c < kEdge; ++c)
+      for (int b = 0; b < kEdge; ++b)
+        for (int a = 0; a < kEdge; ++a)
+          block[at++] = valueAt({key[0] * kEdge + a, key[1] * kEdge + b, key[2] * kEdge + c});
+  }
 }
 
 }  // namespace endovascular_sim::segmentation

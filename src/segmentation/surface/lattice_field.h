@@ -12,7 +12,7 @@
 namespace endovascular_sim::segmentation
 {
 
-/** Signed function of the united lumen on a lattice, in blocks of 8³ points near and inside of the branches. */
+/** Signed function of a lumen on a lattice, in blocks of 8³ points near and inside of it. */
 class LatticeField
 {
 public:
@@ -20,8 +20,13 @@ public:
   using Key = std::array<int, 3>;
   using Values = std::array<float, kEdge * kEdge * kEdge>;
 
-  /** @param blend range of the smooth minimum, in radii of the smaller branch */
+  /** Field of the union of branches.
+   *  @param blend range of the smooth minimum, in radii of the smaller branch */
   LatticeField(const std::vector<LumenBranch>& branches, double spacing, double blend, int threads);
+
+  /** Field of values on a grid, i fastest, with the first one at the origin and a spacing of 1. The outermost values
+   * are positive. */
+  LatticeField(const std::vector<float>& values, const Eigen::Vector3i& size);
 
   double spacing() const { return spacing_; }
   const std::map<Key, Values>& blocks() const { return blocks_; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "segmentation/lumen/contrast.h"
+#include "segmentation/view/ct_page_lumen.h"
 #include "segmentation/view/ct_page_script.h"
 #include "segmentation/view/straightened_view.h"
 
@@ -12,7 +14,9 @@ namespace endovascular_sim::segmentation
 namespace
 {
 
-constexpr std::size_t kMostVoxels = 17000000;  // 23 MB in base 64
+constexpr double kWindowBegin = -200.0;                               ///< of a CT [HU]
+constexpr double kGreyStep = (kMostContrast - kWindowBegin) / 255.0;  ///< [HU]
+constexpr std::size_t kMostVoxels = 17000000;                         // 23 MB in base 64
 
 /** Voxels that are averaged along each axis: the finest axis first. */
 Eigen::Vector3i reductionOf(const Scan& scan)
@@ -38,7 +42,7 @@ Eigen::Vector3i reductionOf(const Scan& scan)
 GreyWindow windowOf(const Scan& scan)
 {
   if (scan.modality() == image::Modality::kCt)
-    return {-200.0, 800.0};
+    return {kWindowBegin, kMostContrast};
   std::vector<std::int16_t> values;
   const std::vector<std::int16_t>& stored = scan.volume().stored;
   for (std::size_t k = 0; k < stored.size(); k += 37)
@@ -66,6 +70,17 @@ std::string reducedBytes(const Scan& scan, const Eigen::Vector3i& factor, const 
         bytes.push_back(static_cast<char>(window.grey(sum / cells)));
       }
   return bytes;
+}
+
+/** Limits by which the page judges clicks, those of checkClicks(). */
+nlohmann::ordered_json contrastLimits()
+{
+  nlohmann::ordered_json tissues;
+  tissues.push_back({{"below", kFat}, {"name", "fat, air or lung"}});  // the window begins above air
+  tissues.push_back({{"below", kLeastContrast}, {"name", tissueName(kSoftTissue)}});
+  // The window of the page ends at the most contrast.
+  return {{"soft", kSoftTissue}, {"most", kMostContrast - kGreyStep},     {"onWall", kOnWall}, {"inLumen", kInLumen},
+          {"tissues", tissues},  {"brightest", tissueName(kMostContrast)}};
 }
 
 }  // namespace
@@ -105,8 +120,9 @@ std::string ctPage(const Scan& scan)
   }
   grid["window"] = {window.black, window.white};
   grid["unit"] = scan.modality() == image::Modality::kCt ? " HU" : "";
+  grid["contrast"] = contrastLimits();
   return std::string(kPageBegin) + "const grid = " + grid.dump() + ";\nconst data = \"" +
-         base64(reducedBytes(scan, factor, window)) + "\";\n" + kPageEnd;
+         base64(reducedBytes(scan, factor, window)) + "\";\n" + kPageImage + kPageLumen + kPageEnd;
 }
 
 }  // namespace endovascular_sim::segmentation

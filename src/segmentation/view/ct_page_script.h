@@ -12,7 +12,9 @@ body { margin: 0; background: #181818; color: #ddd; font: 14px sans-serif; }
 canvas { width: 100%; height: 100%; object-fit: contain; cursor: crosshair; }
 #views span { position: absolute; left: 6px; top: 4px; pointer-events: none; text-shadow: 0 0 3px #000; }
 #side { margin-left: 67%; padding: 8px; }
-textarea { width: 95%; height: 45vh; background: #222; color: #ddd; font: 13px monospace; }
+#verdict { min-height: 2.4em; margin: 4px 0; color: #8d8; }
+#verdict.fault { color: #f96; }
+textarea { width: 95%; height: 34vh; background: #222; color: #ddd; font: 13px monospace; }
 button, input { font-size: 14px; margin: 3px 3px 3px 0; padding: 3px 8px; }
 </style></head><body>
 <div id="views">
@@ -24,33 +26,43 @@ button, input { font-size: 14px; margin: 3px 3px 3px 0; padding: 3px 8px; }
 <div id="side">
 <p>Click a plane to move the cross, turn the wheel to leaf through, drag with the right button to set brightness and contrast.
 Shift and wheel, or the keys <b>+</b> and <b>-</b>, enlarge the surroundings of the cross. A click into the projection goes to the
-brightest voxel there. The key <b>a</b> adds the cross as a click to the branch.</p>
-<p>Two clicks per branch suffice: one near each end, inside the lumen.</p>
+brightest voxel there. Keys: <b>a</b> adds the cross as a click to the branch, <b>u</b> undoes the last click, <b>n</b> moves the cross to
+the nearest lumen.</p>
+<p>Two clicks per branch suffice: one near each end, inside the lumen. Give a largest radius only where a branch widens to more than
+1.6 times its lumen at the clicks, e.g. in an aneurysm.</p>
 <p>Projection <select id="axis"><option value="1">from the front</option><option value="0">from the left</option><option value="2">from
-the feet</option></select> of <select id="slab"><option value="0">the whole image</option><option value="40">40 mm around the cross</option><option
-value="20">20 mm around the cross</option></select></p>
+the feet</option></select> of <select id="slab"><option value="40">40 mm around the cross</option><option value="20">20 mm around the cross</option><option
+value="0">the whole image</option></select></p>
 <p id="place">reading the image</p>
-<p><input id="name" value="left_anterior_descending" size="26"><button id="add">add click (a)</button><button id="undo">undo</button></p>
+<p>Branch <input id="name" value="left_anterior_descending" size="20" list="names"><datalist id="names"></datalist>
+radius up to <input id="radius" type="number" min="0.5" max="100" step="0.5" placeholder="by clicks" style="width: 5em"> mm</p>
+<p><button id="add">add click (a)</button><button id="undo">undo (u)</button><button id="nearest">nearest lumen (n)</button></p>
+<p id="verdict"></p>
 <textarea id="yaml" wrap="off" readonly></textarea><br>
 <button id="copy">copy</button><button id="save">save clicks.yaml</button>
 </div>
 <script>
 )html";
 
-/** Script of the page after the data. */
-constexpr auto kPageEnd = R"html(
+/** Beginning of the script, after the data. */
+constexpr auto kPageImage = R"html(
 const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0));
-const n = grid.size, cross = n.map(k => k >> 1), clicks = [];
+const n = grid.size, cross = n.map(k => k >> 1), clicks = [], radii = new Map();
 let low = 0, high = 255, zoom = 1;
 const at = (i, j, k) => bytes[(k * n[1] + j) * n[0] + i];
+)html";
+
+/** Script of the views and of the clicks. */
+constexpr auto kPageEnd = R"html(
+const element = id => document.getElementById(id);
 // Column and row axis of every view; images show the patient's head up, or the front up in the axial plane.
 const layout = [{fixed: 0, column: 1, row: 2, up: true}, {fixed: 1, column: 0, row: 2, up: true},
                 {fixed: 2, column: 0, row: 1, up: false}, null];  // the last view is the projection
 // Maximal values along the fixed axis of the last view, from first to last, and the place of each.
 let projected = "", most = null, depth = null;
 function project() {
-  const view = layout[3] = layout[Number(document.getElementById("axis").value)], f = view.fixed;
-  const slab = Number(document.getElementById("slab").value) / 2, half = slab ? Math.round(slab / grid.spacing[f]) : n[f];
+  const view = layout[3] = layout[Number(element("axis").value)], f = view.fixed;
+  const slab = Number(element("slab").value) / 2, half = slab ? Math.round(slab / grid.spacing[f]) : n[f];
   const first = Math.max(0, cross[f] - half), last = Math.min(n[f] - 1, cross[f] + half), q = [0, 0, 0];
   if (projected == [f, first, last].join()) return;
   projected = [f, first, last].join();
@@ -99,31 +111,68 @@ function draw() {
     for (const click of clicks) {
       const off = Math.abs(click.voxel[view.fixed] - cross[view.fixed]);
       if (number != 3 && off > 3) continue;
-      context.strokeStyle = "#fd0"; context.beginPath();
+      context.strokeStyle = click.fault ? "#f42" : "#fd0"; context.beginPath();
       context.arc(x(click.voxel[view.column]), y(click.voxel[view.row]), 5, 0, 7); context.stroke();
     }
   });
-  const p = position(), v = at(cross[0], cross[1], cross[2]);
-  document.getElementById("place").textContent = "(" + p.map(c => c.toFixed(1)).join(", ") + ") mm, about " +
-    Math.round(grid.window[0] + v / 255 * (grid.window[1] - grid.window[0])) + grid.unit;
+  describe();
 }
+// Place, value and width at the cross; in the lumen also the distance from the last click of the branch.
+function describe() {
+  const p = position(), fault = faultAt(cross), last = clicks.filter(c => c.name == branchName()).pop();
+  element("place").textContent = "(" + p.map(c => c.toFixed(1)).join(", ") + ") mm, about " + Math.round(valueAt(cross)) + grid.unit +
+    (fault ? ": " + fault : ", lumen about " + widthAt(cross).toFixed(1) + " mm wide") +
+    (last && last.voxel.join() != cross.join() ? ", " + distance(p, last.position).toFixed(1) + " mm from the last click" : "");
+}
+function tell(text, isFault) { element("verdict").textContent = text; element("verdict").className = isFault ? "fault" : ""; }
+// Name of the branch: letters of any script, digits, _, - and .
+function branchName() { return element("name").value.replace(/[\x00-\x7f]/g, c => /[A-Za-z0-9_.-]/.test(c) ? c : "_") || "_"; }
+const written = name => /^[A-Za-z_][A-Za-z0-9_-]*$/.test(name) && !/^(true|false|yes|no|on|off|null|y|n)$/i.test(name) ? name : '"' + name + '"';
 function yaml() {
-  const names = [...new Set(clicks.map(c => c.name))];
-  const text = document.getElementById("yaml");
-  text.value = "frame: LPS\nunit: 0.001\nbranches:\n" + names.map(name => "  - name: " + name +
+  const names = [...new Set(clicks.map(c => c.name))], text = element("yaml");
+  text.value = "frame: LPS\nunit: 0.001\nbranches:\n" + names.map(name => "  - name: " + written(name) +
+    (radii.has(name) ? "\n    largest_radius: " + radii.get(name) : "") +
     "\n    clicks:\n" + clicks.filter(c => c.name == name).map(c => "      - [" + c.position.map(p => p.toFixed(2)).join(", ") +
-    "]  # about " + c.value + grid.unit + "\n").join("")).join("");
+    "]  # about " + c.value + grid.unit + (c.fault ? ": " + c.fault : "") + "\n").join("")).join("");
   text.scrollTop = text.scrollHeight;
+  element("names").replaceChildren(...names.map(name => new Option(name, name)));
+}
+// Judges the newest click: its tissue, its distance from the one before it in the branch, and the widths of the lumen at both.
+function judge(click) {
+  const own = clicks.filter(c => c.name == click.name), before = own[own.length - 2];
+  const about = click.name + ", click " + own.length + ": about " + click.value + grid.unit + ", ";
+  if (click.fault)
+    return tell(about + click.fault + ". Undo it (u); the key n moves the cross to the nearest lumen.", true);
+  const away = before ? distance(click.position, before.position) : 0;
+  const text = about + "lumen about " + click.width.toFixed(1) + " mm wide" + (before ? ", " + away.toFixed(1) + " mm from the click before" : "");
+  if (before && away < Math.min(click.width, before.width))
+    return tell(text + ": nearer than the lumen is wide. Click near the other end of the branch.", true);
+  const widest = before ? Math.max(click.width, before.width) : 0;
+  if (widest > 10 && widest > 3 * Math.min(click.width, before.width))
+    return tell(text + ", " + before.width.toFixed(1) + " mm there. If the branch itself is so wide, give its largest radius, e.g. " +
+      Math.ceil(0.8 * widest) + " mm.", true);
+  tell(text + ".", false);
 }
 function add() {
-  const name = document.getElementById("name").value.replace(/[^A-Za-z0-9_.-]/g, "_"), v = at(cross[0], cross[1], cross[2]);
-  if (clicks.some(c => c.name == name && c.voxel.join() == cross.join())) {  // the key was pressed twice
-    document.getElementById("place").textContent = "this click is already in the list: move the cross to the other end of the branch";
-    return;
-  }
-  clicks.push({name: name, voxel: cross.slice(), position: position(),
-               value: Math.round(grid.window[0] + v / 255 * (grid.window[1] - grid.window[0]))});
-  yaml(); draw();
+  const name = branchName();
+  if (clicks.some(c => c.name == name && c.voxel.join() == cross.join()))  // the key was pressed twice
+    return tell("This click is already in the list: move the cross to the other end of the branch.", true);
+  const click = {name, voxel: cross.slice(), position: position(), value: Math.round(valueAt(cross)), width: widthAt(cross), fault: faultAt(cross)};
+  clicks.push(click); judge(click); yaml(); draw();
+}
+function undo() {
+  const click = clicks.pop();
+  if (!click) return;
+  click.voxel.forEach((k, a) => { cross[a] = k; });
+  if (!clicks.some(c => c.name == click.name)) radii.delete(click.name);
+  element("name").value = click.name; element("radius").value = radii.get(click.name) || "";
+  tell("Removed the last click of " + click.name + "; the cross stands there.", false); yaml(); draw();
+}
+function toNearestLumen() {
+  const found = nearestLumen(cross);
+  if (!found) return tell("There is no lumen within 10 mm.", true);
+  found.forEach((k, a) => { cross[a] = k; });
+  tell("", false); draw();
 }
 [0, 1, 2, 3].forEach(number => {
   const canvas = document.getElementById("v" + number);
@@ -155,18 +204,26 @@ function add() {
   };
 });
 function enlarge(more) { zoom = Math.max(1, Math.min(8, more ? zoom * 1.5 : zoom / 1.5)); draw(); }
-for (const name of ["axis", "slab"]) document.getElementById(name).onchange = event => { event.target.blur(); draw(); };
-document.getElementById("add").onclick = add;
-document.getElementById("undo").onclick = () => { clicks.pop(); yaml(); draw(); };
+for (const name of ["axis", "slab"]) element(name).onchange = event => { event.target.blur(); draw(); };
+element("name").oninput = () => { element("radius").value = radii.get(branchName()) || ""; describe(); };
+element("radius").oninput = event => {
+  if (Number(event.target.value) > 0) radii.set(branchName(), Number(event.target.value)); else radii.delete(branchName());
+  yaml();
+};
+element("add").onclick = add;
+element("undo").onclick = undo;
+element("nearest").onclick = toNearestLumen;
 document.onkeydown = event => {
   if (event.target.tagName == "INPUT" || event.ctrlKey || event.metaKey || event.altKey) return;
   if (event.key == "a") add();
+  if (event.key == "u") undo();
+  if (event.key == "n") toNearestLumen();
   if (event.key == "+" || event.key == "-") enlarge(event.key == "+");
 };
-document.getElementById("copy").onclick = () => { const t = document.getElementById("yaml"); t.select(); document.execCommand("copy"); };
-document.getElementById("save").onclick = () => {
+element("copy").onclick = () => { const t = element("yaml"); t.select(); document.execCommand("copy"); };
+element("save").onclick = () => {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([document.getElementById("yaml").value])); link.download = "clicks.yaml"; link.click();
+  link.href = URL.createObjectURL(new Blob([element("yaml").value])); link.download = "clicks.yaml"; link.click();
 };
 yaml(); draw();
 </script></body></html>

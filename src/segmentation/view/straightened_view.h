@@ -1,25 +1,29 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "segmentation/lumen/open_stretch.h"
 #include "segmentation/lumen/scan.h"
 #include "segmentation/lumen/section.h"
+#include "segmentation/view/colour_picture.h"
 
 namespace endovascular_sim::segmentation
 {
 
-/** Greyscale picture in row-major order from the top. */
-struct GreyPicture
-{
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> pixels;
-};
+/** Colours of the contour and of the legend. @{ */
+constexpr Colour kWallColour = {255, 255, 255};    ///< edge of the lumen
+constexpr Colour kOpenColour = {255, 40, 40};      ///< no edge, or one that does not fit those of the neighbours
+constexpr Colour kCalciumColour = {255, 200, 0};   ///< edge at calcium
+constexpr Colour kBoneColour = {0, 200, 255};      ///< edge before bone
+constexpr Colour kTurnColour = {255, 0, 255};      ///< turn of the path
+constexpr Colour kJunctionColour = {90, 90, 160};  ///< no edge, because the ray runs into another branch
+/** @} */
 
-/** Straightened view of a branch: two perpendicular cuts along its centreline, one above the other, with the contour as
- * a white line. The branch begins on the left. Marks above and below are 10 mm apart. */
-GreyPicture straightenedView(const Scan& scan, const LumenBranch& branch);
+/** Straightened view of a branch: two perpendicular cuts along its centreline, one above the other, with the contour.
+ * The strip below them is the unrolled wall: a row per ray, black where the ray has found the edge. The colours show
+ * what is doubtful. The branch begins on the left. Marks above and below are 10 mm apart.
+ *  @param other lumens of the other branches; may be empty */
+ColourPicture straightenedView(const Scan& scan, const LumenBranch& branch, const OtherLumen& other);
 
 /** Range of values that pictures show: black and white. */
 struct GreyWindow

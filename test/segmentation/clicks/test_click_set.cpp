@@ -135,6 +135,63 @@ TEST_F(Clicks, OfFiducialListsMayHaveQuotedLabelsWithCommas)
   EXPECT_EQ(set.branches[0].clicks.size(), 2u);
 }
 
+TEST_F(Clicks, OfAListOfEndpointsAreEndsAndBeginWithThePointThatIsNotSelected)
+{
+  const auto markups = [this](const std::string& name, const std::string& label)
+  {
+    return readClicks(file(name, R"({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS", "controlPoints": [
+      {"label": ")" + label + R"(-1", "position": [1, 2, 3]},
+      {"label": ")" + label + R"(-2", "position": [4, 5, 6], "selected": false},
+      {"label": ")" + label + R"(-3", "position": [7, 8, 9]}]}]})"))
+        .branches.at(0);
+  };
+  for (const BranchClicks& ends : {markups("a.mrk.json", "Endpoints"), markups("endpoints_of_y.mrk.json", "F")})
+  {
+    EXPECT_TRUE(ends.are_ends);
+    ASSERT_EQ(ends.clicks.size(), 3u);
+    EXPECT_DOUBLE_EQ(ends.clicks[0].position.x(), 0.004);
+    EXPECT_DOUBLE_EQ(ends.clicks[1].position.x(), 0.001);
+  }
+  const BranchClicks course = markups("a.mrk.json", "LAD");
+  EXPECT_FALSE(course.are_ends);
+  EXPECT_DOUBLE_EQ(course.clicks[0].position.x(), 0.001);
+  const ClickSet list = readClicks(file("Endpoints.fcsv",
+                                        "# CoordinateSystem = LPS\na,1,2,3,0,0,0,1,1,1,0,F-1,,\n"
+                                        "b,4,5,6,0,0,0,1,1,0,0,F-2,,\n"));
+  EXPECT_TRUE(list.branches[0].are_ends);
+  EXPECT_DOUBLE_EQ(list.branches[0].clicks[0].position.x(), 0.004);
+  EXPECT_TRUE(readClicks(file("a.yaml", "branches: [{name: y, ends: [[1, 2, 3], [4, 5, 6], [7, 8, 9]]}]\n"))
+                  .branches[0]
+                  .are_ends);
+  EXPECT_NE(errorOf("a.yaml", "branches: [{name: y, ends: [[1, 2, 3]], clicks: [[4, 5, 6]]}]\n")
+                .find("ends (line 1): excludes clicks"),
+            std::string::npos);
+}
+
+TEST_F(Clicks, HaveNamesInAnyScript)
+{
+  const auto nameIn = [this](const std::string& label)
+  {
+    return readClicks(file("a.mrk.json", R"({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
+      "controlPoints": [{"label": ")" + label +
+                                             R"(-1", "position": [1, 2, 3]}, {"label": ")" + label +
+                                             R"(-2", "position": [4, 5, 6]}]}]})"))
+        .branches.at(0)
+        .name;
+  };
+  EXPECT_EQ(nameIn("冠状動脈"), "冠状動脈");
+  EXPECT_EQ(nameIn("Aorta ascendens – größe"), "Aorta_ascendens_–_größe");
+  const std::string yaml = "branches:\n  - name: ";
+  const std::string clicks = "\n    clicks: [[1, 2, 3], [4, 5, 6]]\n";
+  EXPECT_EQ(readClicks(file("a.yaml", yaml + "größe" + clicks)).branches[0].name, "größe");
+  EXPECT_NE(errorOf("a.yaml", yaml + "a/b" + clicks).find("letters of any script"), std::string::npos);
+  EXPECT_NE(errorOf("a.mrk.json", R"({"markups": [
+      {"coordinateSystem": "LPS", "controlPoints": [{"label": "LM 1", "position": [1, 2, 3]}, {"label": "LM 2", "position": [4, 5, 6]}]},
+      {"coordinateSystem": "LPS", "controlPoints": [{"label": "LM-1", "position": [1, 2, 4]}, {"label": "LM-2", "position": [4, 5, 7]}]}]})")
+                .find("LM: is the name of two branches"),
+            std::string::npos);
+}
+
 TEST_F(Clicks, AreRefusedWithPlaceAndRemedy)
 {
   EXPECT_NE(errorOf("a.txt", "").find("3D Slicer"), std::string::npos);

@@ -47,6 +47,21 @@ TEST(EdgeModel, TakesTheShareBehindTheWallFromAnAsymptote)
   EXPECT_EQ(EdgeModel(spread, 0.0).beyondWall(1e-3), 0.0);
 }
 
+TEST(EdgeModel, HasTheShareOfBoneBehindAGap)
+{
+  const EdgeModel model(3.75e-4, 8e-4);
+  EXPECT_NEAR(model.beyondGap(0.0), 0.5, 1e-12);
+  EXPECT_NEAR(model.beyondGap(3.75e-4), 0.158655, 1e-6);
+  EXPECT_NEAR(model.beyondGap(1.0), 0.0, 1e-12);
+}
+
+TEST(EdgeModel, InvertsTheValueInTheMiddle)
+{
+  const EdgeModel model(3.75e-4, 8e-4);
+  for (const double radius : {1e-4, 3e-4, 9e-4})
+    EXPECT_NEAR(model.radiusOfMiddle(model.discInMiddle(radius)), radius, 1e-9);
+}
+
 TEST(EdgeModel, HasTheBesselFunctionOfTables)
 {
   EXPECT_NEAR(scaledBesselI0(0.0), 1.0, 1e-9);

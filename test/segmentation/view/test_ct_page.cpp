@@ -28,6 +28,19 @@ TEST(CtPage, HoldsAtMost25MegabytesAndNoReferences)
   EXPECT_NE(page.find("\"size\":[320,160,320]"), std::string::npos);
 }
 
+TEST(CtPage, JudgesClicksByTheLimitsOfTheirCheck)
+{
+  image::Volume volume;
+  volume.grid.size = {4, 4, 4};
+  volume.grid.spacing = {1e-3, 1e-3, 1e-3};
+  volume.stored.assign(volume.grid.voxels(), 100);
+  const std::string page = ctPage(Scan(volume));
+  EXPECT_NE(page.find("{\"below\":-20.0,\"name\":\"fat, air or lung\"},"
+                      "{\"below\":150.0,\"name\":\"soft tissue or the wall\"}"),
+            std::string::npos);
+  EXPECT_NE(page.find("\"onWall\":0.45,\"inLumen\":0.75"), std::string::npos);
+}
+
 TEST(CtPage, AddsNoClickTwice)
 {
   image::Volume volume;
