@@ -10,6 +10,8 @@ set(LAYERS
   "contact       : geometry                                   : fcl"
   "rod           : contact                                    : ${KLU_LIBRARY} ${CHOLMOD_LIBRARY}"
   "vessel        : geometry yaml                              : ${TINYXML_LIBRARY} ZLIB::ZLIB"
+  "flow          : vessel                                     :"
+  "motion        : vessel                                     :"
   "segmentation  : image vessel                               :"
   "instrument    : rod                                        :"
   "intervention  : instrument vessel                          :"
@@ -20,7 +22,7 @@ set(LAYERS
   "robot         : drive                                      :"
   "haptics       : drive                                      :"
   "sensor        : common                                     :"
-  "scene         : fluoroscopy robot sensor                   :"
+  "scene         : fluoroscopy robot sensor flow              :"
   "simulation    : intervention scene                         :"
   "procedure     : simulation                                 :"
   "results       : procedure                                  :"
@@ -31,7 +33,7 @@ set(LAYERS
 set(SEPARATE_FOLDERS vessel/prepare segmentation/mesh image/import robot/urdf)
 
 # The calls in these take most of the time of steps, frames and images.
-set(FAST_LAYERS geometry rod contact patient phantom fluoroscopy segmentation)
+set(FAST_LAYERS geometry rod contact motion patient phantom fluoroscopy segmentation)
 
 # read_layer(LINE): sets `layer`, `layer_includes` and `layer_links`.
 macro(read_layer line)

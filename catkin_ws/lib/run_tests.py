@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs the built tests of the package and reports them: gtest programs in parallel shards, then the programs that
-measure time, the rostests and the scripts one after another. Every test has a ceiling of time; the last line reads
+"""Runs the built tests of the package and reports them: gtest programs in parallel shards and the scripts that share
+the processors, then the programs that measure time, the rostests and the other scripts one after another. Every test has a ceiling of time; the last line reads
 `N passed, N failed`."""
 
 import argparse
@@ -24,6 +24,7 @@ SECONDS_PER_GTEST = 300  # default ceiling of one test case
 SECONDS_PER_ROSTEST = 300
 SECONDS_PER_SCRIPT = 900
 SECONDS_PER_LONG_SCRIPT = 4 * 3600  # scripts of test/scripts/all
+SHARES = "# Runs beside other tests."  # line of a script that starts no graph and measures no time
 TESTS_PER_SHARD = 10  # a program with fewer is not divided
 
 
@@ -129,7 +130,7 @@ class Runner:
             name = os.path.splitext(os.path.basename(path))[0]
             if self.wanted(name):
                 long = os.path.basename(os.path.dirname(path)) == "all"
-                runs.append(Run("long script" if long else "script", name, ["bash", path]))
+                runs.append(Run("long script" if long else "script", name, ["bash", path], alone=not shares(path)))
         return runs
 
     def wanted(self, name):
@@ -245,14 +246,15 @@ class Runner:
             raise SystemExit("error: there is no folder test/%s with tests" % self.arguments.only)
         gtests, rostests, scripts = self.gtests(), self.rostests(), self.scripts()
         alone = [run for run in gtests if run.alone]
-        parallel = [run for run in gtests if not run.alone]
+        parallel = [run for run in gtests + scripts if not run.alone]
         if parallel:
-            print("== gtest, %d at once; logs: %s" % (processors(), self.logs), flush=True)
+            print("== gtest and scripts, %d at once; logs: %s" % (processors(), self.logs), flush=True)
             with concurrent.futures.ThreadPoolExecutor(processors()) as pool:
                 for _ in pool.map(self.run, parallel):
                     pass
         for title, runs in (("gtest, tests with deadlines, one at a time", alone),
-                            ("rostest, one at a time", rostests), ("scripts", scripts)):
+                            ("rostest, one at a time", rostests),
+                            ("scripts, one at a time", [run for run in scripts if run.alone])):
             if runs:
                 print("== " + title, flush=True)
             for run in runs:
@@ -263,6 +265,12 @@ class Runner:
     def known(self, folder):
         return folder == "scripts" or (folder.split("/")[0] in self.folders() and
                                        os.path.isdir(os.path.join(self.repository, "test", folder)))
+
+
+def shares(path):
+    """Whether a script may run beside other tests."""
+    with open(path) as script:
+        return SHARES in script.read().splitlines()
 
 
 def processors():

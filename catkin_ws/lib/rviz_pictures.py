@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Pictures of rviz at the moments of a session that matter, while its recording is played.
+"""Pictures of rviz at the moments of a session that matter, from its recording.
 
 usage: rviz_pictures.py FOLDER     moments of the results, one a line: time [s], name of the picture
-       rviz_pictures.py FOLDER --play    starts the paused player, pauses it at each of them and saves FOLDER/NAME.png
+       rviz_pictures.py FOLDER --play    leads the paused player to each of them and saves FOLDER/NAME.png
 
 The moments are the ends of a procedure's phases with an instrument in the vessel, at most 8. Without a procedure it is the last
 one with the instruments deep in the vessel. rviz.png is the picture of the last moment before an instrument is withdrawn for good.
@@ -21,7 +21,6 @@ MOST = 8         # pictures
 EARLIER = 0.3    # time before the end of a phase [s]
 DEEP = 0.9       # share of the largest insertion
 DRAWING = 4.0    # time for rviz to draw a state in software [s]
-STILL = 15.0     # time without a new state after which the recording has ended [s]
 LIMIT = 200.0    # time for all pictures [s]
 
 
@@ -79,43 +78,22 @@ def moments(folder):
 def play(folder):
     """Takes the pictures; returns whether rviz.png exists."""
     import rospy
-    from endovascular_sim.msg import RodStateVisual
-    from std_srvs.srv import SetBool
-    state = {"time": -1.0}
+    from endovascular_sim.srv import PlayerControl, PlayerControlRequest
     rospy.init_node("pictures", anonymous=True, disable_signals=True)
-    rospy.Subscriber("/rod/state_visual", RodStateVisual, lambda message: state.update(time=message.time), queue_size=1)
     end = time.monotonic() + LIMIT
-    rospy.wait_for_service("/player/pause_playback", 60)
-    player = rospy.ServiceProxy("/player/pause_playback", SetBool)
-
-    def pause(value):
-        try:
-            player(value)
-        except rospy.ServiceException:
-            pass  # the player has ended, and rviz shows the last state
-
-    def wait(when):
-        """Waits until the played state reaches a time [s], or has not changed for a while: the end of the recording."""
-        last, changed = state["time"], time.monotonic()
-        while state["time"] < when and time.monotonic() < min(end, changed + STILL):
-            if state["time"] != last:
-                last, changed = state["time"], time.monotonic()
-            time.sleep(0.005)
-
+    rospy.wait_for_service("/player/control", 60)
+    player = rospy.ServiceProxy("/player/control", PlayerControl)
     wanted, telling = moments(folder)
-    time.sleep(2.0 * DRAWING)  # the player waits for rviz
-    pause(False)
+    time.sleep(2.0 * DRAWING)  # rviz needs some seconds for its first picture
     for when, name in wanted:
-        wait(when)
         if time.monotonic() > end:
             return False
-        pause(True)
+        player(PlayerControlRequest.SEEK_TIME, when)
         time.sleep(DRAWING)
         picture = os.path.join(folder, name + ".png")
         subprocess.run(["timeout", "-s", "KILL", "20", "import", "-window", "root", picture], check=False)
         if name == telling and os.path.isfile(picture) and name != "rviz":
             shutil.copyfile(picture, os.path.join(folder, "rviz.png"))
-        pause(False)
     return os.path.isfile(os.path.join(folder, "rviz.png"))
 
 

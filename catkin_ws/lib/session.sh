@@ -190,19 +190,19 @@ run_session() {
     nodes+=$'\n'visualization
   fi
 
-  for node in vessel_server contact rod_dynamics fluoroscopy haptic_device robot session visualization; do
+  for node in vessel_server contact hemodynamics rod_dynamics fluoroscopy haptic_device robot session visualization; do
     if grep -qx "$node" <<< "$nodes"; then arguments+=("$node:=true"); else arguments+=("$node:=false"); fi
   done
-  say "Scene $scene_file"
-  note "nodes: $(tr '\n' ' ' <<< "$nodes")"
-  note "results: $results"
   local times_before
   # shellcheck disable=SC2207  # numbers
   times_before=("$(date +%s.%N)" $(machine_times) "$(children_time)")
   # From here on there are processes to end. bash cannot run a trap while it parses a command substitution: there is none
-  # until the traps are removed. Earlier a signal has its default effect.
+  # until the traps are removed. Earlier a signal has its default effect, unless it arrives while a command ends.
   trap interrupted INT TERM
   trap clean_up EXIT
+  say "Scene $scene_file"
+  note "nodes: ${nodes//$'\n'/ }"
+  note "results: $results"
   if grep -qx haptic_device <<< "$nodes"; then
     start_device
     arguments+=("device:=$results/device" "baud:=$device_baud")
@@ -259,11 +259,9 @@ after_session() {
   "$programs"/plots summary "$results" || $session_interrupted || session_status=1
 }
 
-# The session's scene if its X-ray images must be computed: it has fluoroscopy, and the bag does not contain the images.
-scene_with_x_ray() {
-  if grep -q '^fluoroscopy:' "$results/scene.yaml" && ! grep -q '^  x_ray_frames: true' "$results/scene.yaml"; then
-    printf '%s' "$results/scene.yaml"
-  fi
+# Origin of the X-ray images: the bag if it holds them, else they are computed.
+origin_of_x_ray() {
+  if grep -q '^  x_ray_frames: true' "$results/scene.yaml"; then printf recorded; else printf rendered; fi
 }
 
 # Plays the bag into rviz on a virtual screen and saves a picture at each moment that matters (rviz_pictures.py).
@@ -271,11 +269,10 @@ scene_with_x_ray() {
 draw_rviz() {
   session_phase=drawing
   local display_file="$results/log/display" config="$results/log/pictures.rviz" pictures="$workspace/lib/rviz_pictures.py"
-  local display scene moments pictures_pid waited=0
+  local display moments pictures_pid waited=0
   moments=$(/usr/bin/python3 "$pictures" "$results") || return 1
   [ -n "$moments" ] || { note "no instrument entered the vessel: no picture of rviz"; return 0; }
   ros_environment
-  scene=$(scene_with_x_ray)
   cp "$repository/rviz/replay.rviz" "$config"
   # Phases of a procedure differ at the tip: an overview of the body shows neither the stenosis nor the stent.
   [ "$(wc -l <<< "$moments")" -eq 1 ] ||
@@ -291,8 +288,8 @@ draw_rviz() {
   display=":$display"
   say "Drawing rviz from the recording, in software"
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 \
-    roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "scene:=$scene" "rviz_config:=$config" \
-    options:=--pause rate:=8 > "$results/log/rviz.log" 2>&1 &
+    roslaunch endovascular_sim replay.launch "bag:=$results/session.bag" "x_ray:=$(origin_of_x_ray)" "rviz_config:=$config" \
+    paused:=true > "$results/log/rviz.log" 2>&1 &
   launch_pid=$!
   become own env "ENDOVASCULAR_GRAPH=$results" DISPLAY="$display" timeout -s KILL 300 /usr/bin/python3 "$pictures" "$results" --play \
     >> "$results/log/rviz_pictures.log" 2>&1 &

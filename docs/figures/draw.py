@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the figures of CONTACT, PHYSICS and ARCHITECTURE as SVG files beside this script.
+"""Draws the figures of CONTACT, PHYSICS, ARCHITECTURE, FLOW and MOTION as SVG files beside this script.
 
   docs/figures/draw.py            writes the files
   docs/figures/draw.py --check    compares the files with what it would write; exit code 1 if one differs
@@ -152,7 +152,7 @@ def layers():
         ("scene", "files, keys, instruments and vessel of a scene", "#eef3f8"),
         ("drive · robot · haptics · sensor · fluoroscopy · intervention", "what moves or sees instruments", "#eef3f8"),
         ("patient · phantom", "tissues of the body, synthetic CT and MR", "#eef3f8"),
-        ("vessel · segmentation · instrument", "anatomy and devices", "#eef3f8"),
+        ("vessel · flow · motion · segmentation · instrument", "anatomy and devices", "#eef3f8"),
         ("rod · contact", "mechanics; they share only contact/contract", "#eef3f8"),
         ("common · yaml · geometry · image", "errors, archives, meshes, volumes", "#f2f2f2"),
     ]
@@ -168,7 +168,135 @@ def layers():
     return figure
 
 
-FIGURES = {"contact_features": features, "contact_distances": distances, "step": step, "layers": layers}
+def resistor(axes, x, y, name, length=0.7):
+    """Zigzag along x, from (x, y)."""
+    xs = x + length * np.array([0, 0.15, 0.22, 0.36, 0.5, 0.64, 0.78, 0.85, 1.0])
+    ys = y + 0.14 * np.array([0, 0, 1, -1, 1, -1, 1, 0, 0])
+    axes.plot(xs, ys, color="black", linewidth=1.1)
+    label(axes, x + 0.5 * length, y + 0.32, name)
+
+
+def outlet(axes, x, y, name):
+    """Windkessel from (x, y): R1, then C to the ground and R2."""
+    resistor(axes, x, y, "$R_1$")
+    resistor(axes, x + 0.9, y, "$R_2$")
+    axes.plot([x + 0.7, x + 0.9], [y, y], color="black", linewidth=1.1)
+    axes.plot([x + 0.8, x + 0.8], [y, y - 0.28], color="black", linewidth=1.1)
+    for below in (0.28, 0.36):
+        axes.plot([x + 0.66, x + 0.94], [y - below, y - below], color="black", linewidth=1.6)
+    label(axes, x + 1.1, y - 0.34, "$C$")
+    label(axes, x + 1.7, y, name, ha="left")
+
+
+def flow_network():
+    """Cells and nodes of the flow network, with heart, lesion, instrument and outlets."""
+    figure, axes = canvas(7.4, 3.6, (-1.5, 11.2), (-3.1, 3.0))
+    axes.add_patch(Circle((-0.6, 0), 0.55, facecolor="#f3d9d6", edgecolor=MARK, linewidth=1.5))
+    label(axes, -0.6, 0, "heart\n$Q(t)$", MARK, fontsize=9)
+    trunk, upper, lower = [0.4, 1.6, 2.8, 4.0], [(4.0, 0), (5.2, 0.8), (6.4, 1.6)], [(4.0, 0), (5.2, -0.8), (6.4, -1.6)]
+    for a, b in zip(trunk, trunk[1:]):
+        axes.plot([a, b], [0, 0], color=WALL, alpha=0.3, linewidth=26, solid_capstyle="butt")
+    for way in (upper, lower):
+        for a, b in zip(way, way[1:]):
+            axes.plot(*zip(a, b), color=WALL, alpha=0.3, linewidth=17, solid_capstyle="butt")
+    axes.plot([-0.05, 0.4], [0, 0], color=MARK, linewidth=1.5)
+    nodes = [(x, 0) for x in trunk] + upper[1:] + lower[1:]
+    for node in nodes:
+        axes.add_patch(Circle(node, 0.11, facecolor="white", edgecolor="black", zorder=5))
+    label(axes, 0.4, 0.62, "node:\npressure $P$,\nvolume $V$", fontsize=9, va="bottom")
+    for a, b in zip(trunk, trunk[1:]):
+        arrow(axes, (a + 0.3, 0), (b - 0.3, 0), colour=WIRE)
+    label(axes, 2.2, -0.62, "cell: flow $Q$, area $A$,\nlength $\\Delta x$", WIRE, fontsize=9, va="top")
+    throat = np.array([5.8, 1.2])
+    axes.add_patch(Circle(throat + (-0.12, 0.28), 0.16, facecolor=WALL, edgecolor="none"))
+    axes.add_patch(Circle(throat + (0.14, -0.26), 0.16, facecolor=WALL, edgecolor="none"))
+    label(axes, 4.6, 2.35, "lesion: resistance $R$,\njet $K$", WALL, fontsize=9)
+    arrow(axes, (5.1, 2.0), (5.62, 1.5), colour=WALL, width=0.9)
+    axes.plot([7.6, 6.4, 4.6, 3.0], [-2.4, -1.62, -0.42, -0.14], color=GUIDE, linewidth=4, solid_capstyle="round")
+    label(axes, 7.4, -2.55, "catheter: annulus, and\npressure at its tip", GUIDE, fontsize=9, ha="right")
+    for y, name in ((1.6, "veins, or\nmuscle of the heart"), (-1.6, "veins")):
+        axes.plot([6.4, 6.9], [y, y], color="black", linewidth=1.1)
+        outlet(axes, 6.9, y, name)
+    return figure
+
+
+def flow_steps():
+    """Steps of the simulation and of the flow: a result acts one step of the flow after its request."""
+    figure, axes = canvas(7.4, 2.5, (-1.9, 10.6), (-0.7, 3.5))
+    for y, name in ((2.4, "instruments"), (0.4, "blood")):
+        axes.plot([-0.2, 10.4], [y, y], color="#bbbbbb", linewidth=1)
+        label(axes, -0.4, y, name, ha="right")
+    for k in range(11):
+        axes.plot([k, k], [2.3, 2.5], color="black", linewidth=1)
+    for k, begin in enumerate((0, 5)):
+        box(axes, begin + 1.9, 0.4, 2.6, 0.5, "step %d of the flow" % (k + 1), fontsize=9)
+        arrow(axes, (begin, 2.3), (begin + 0.6, 0.65), colour=WIRE)
+        arrow(axes, (begin + 3.2, 0.5), (begin + 5, 2.25), colour=MARK)
+    label(axes, -0.25, 1.4, "lumens, tips,\ncontrols", WIRE, fontsize=9, ha="right")
+    label(axes, 3.6, 1.75, "pressure, flow", MARK, fontsize=9, ha="right")
+    label(axes, 0.5, 2.85, "1 ms", fontsize=9)
+    arrow(axes, (5, 3.15), (10, 3.15), "<|-|>", MARK)
+    label(axes, 7.5, 3.35, "drag, thrust and readings by step 1 of the flow", MARK, fontsize=9)
+    return figure
+
+
+def moved(points):
+    """Map of the figure of the motion, in a plane: shortening towards the apex, rotation and breath, fading between two circles.
+    Its displacements are twice those of an adult. @param points rows of x, z [mm]"""
+    points = np.asarray(points, float)
+    centre, core, reach = np.array([42.0, 155.0]), 50.0, 100.0
+    base, apex = np.array([0.0, 194.0]), np.array([75.0, 122.0])
+    length = np.linalg.norm(apex - base)
+    axis = (apex - base) / length
+    along = (points - base) @ axis
+    across = points - base - along[:, None] * axis
+    field = 24 * axis * (1 - along / length)[:, None] - 0.12 * across + np.array([0.0, -6.0])
+    t = np.clip((((points - centre) ** 2).sum(axis=1) - core ** 2) / (reach ** 2 - core ** 2), 0, 1)
+    return points + (1 - t ** 3 * (10 - 15 * t + 6 * t ** 2))[:, None] * field
+
+
+def motion_map():
+    """Resting and moved patient: grid, fade, aorta, coronary artery, and a wire that is pulled back."""
+    figure, axes = canvas(7.4, 3.85, (-92, 437), (18, 293))
+    s = np.linspace(0, 1, 60)[:, None]
+    aorta = np.concatenate([[0, 190] + s * [-22, 45], [-22, 235] + np.hstack([27 * (1 - np.cos(np.pi * s)), 30 * np.sin(np.pi * s)]) * [-1, 1],
+                            [-76, 235] + s * [2, -185]])
+    artery = np.array([[0, 190], [14, 199], [28, 197], [42, 184], [52, 168], [62, 150], [72, 133]])
+    inside = np.interp(np.linspace(0, 6, 70), range(7), artery[:, 0]), np.interp(np.linspace(0, 6, 70), range(7), artery[:, 1])
+    kernel = np.ones(9) / 9
+    artery = np.stack([np.convolve(np.pad(v, 4, mode="edge"), kernel, "valid") for v in inside], axis=1)
+    angle = np.linspace(0, 2 * np.pi, 200)
+    for shift, change, title in ((0, lambda p: np.asarray(p, float), "at rest, X"), (292, moved, "moved, x = φ(X)")):
+        def draw(points, **style):
+            axes.plot(*(change(points) + [shift, 0]).T, **style)
+        for value in np.arange(-60, 151, 15):
+            draw(np.column_stack([np.full(80, value), np.linspace(50, 260, 80)]), color="#d5d5d5", linewidth=0.7)
+        for value in np.arange(50, 261, 15):
+            draw(np.column_stack([np.linspace(-60, 150, 80), np.full(80, value)]), color="#d5d5d5", linewidth=0.7)
+        for radius in (50, 100):
+            circle = np.column_stack([42 + radius * np.cos(angle), 155 + radius * np.sin(angle)])
+            axes.plot(*(circle + [shift, 0]).T, color=GUIDE, linewidth=1, linestyle=":")
+        draw(aorta, color=WALL, alpha=0.4, linewidth=14, solid_capstyle="round")
+        draw(artery, color=WALL, alpha=0.55, linewidth=7, solid_capstyle="round")
+        wire = np.concatenate([aorta[170:60:-6], aorta[60:0:-6], artery[:48:5]])
+        axes.plot(*(change(wire) + [shift, 0]).T, "-o", color=WIRE, markersize=2.2, linewidth=1)
+        foot, normal = artery[24], np.array([0.62, 0.78])
+        begin, end = change([foot + 4 * normal, foot + 26 * normal]) + [shift, 0]
+        arrow(axes, begin, end, colour=MARK)
+        label(axes, *(end + [9, 4]), "N" if shift == 0 else "n", MARK, style="italic")
+        label(axes, 42 + shift, 34, title)
+    label(axes, 42, 118, "w = 1", GUIDE, fontsize=9)
+    label(axes, 70, 71, "fade", GUIDE, fontsize=9)
+    label(axes, 134, 60, "w = 0", GUIDE, fontsize=9)
+    arrow(axes, (155, 215), (208, 215), colour=MARK, connectionstyle="arc3,rad=-0.25")
+    label(axes, 181, 262, "features: φ(P),\n$n \\parallel \\nabla\\varphi^{-T}N$", MARK, fontsize=9, va="center")
+    arrow(axes, (208, 95), (155, 95), colour=WIRE, connectionstyle="arc3,rad=-0.25")
+    label(axes, 180, 80, "nodes: $\\varphi^{-1}(x)$", WIRE, fontsize=9, va="top")
+    return figure
+
+
+FIGURES = {"contact_features": features, "contact_distances": distances, "step": step, "layers": layers,
+           "flow_network": flow_network, "flow_steps": flow_steps, "motion_map": motion_map}
 
 
 def svg(draw):

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "arrays.h"
+#include "blood.h"
 #include "hardware.h"
 #include "zeroed.h"
 
@@ -29,6 +30,7 @@ struct Snapshot : Zeroed
   py::array_t<double> nodes;
   py::array_t<ForceRow> forces;
   py::dict sensors;
+  py::object blood;
 };
 
 std::string represented(const Branch& branch)
@@ -57,12 +59,14 @@ py::object snapshotOf(const session::Observation& observation, double time_step)
                            branches,
                            pointArray(observation.nodes(), static_cast<std::size_t>(observation.firstNode())),
                            forcesOf(observation),
-                           readingsOf(observation, time_step)});
+                           readingsOf(observation, time_step),
+                           bloodOf(observation)});
 }
 
 void bindObservation(py::module_& module)
 {
   bindRows();
+  bindBlood(module);
   py::class_<Branch>(module, "Branch", "Position in the branches of the vessel.")
       .def_readonly("name", &Branch::name, "Name of the branch; \"outside\" outside of the vessel.")
       .def_readonly("index", &Branch::index, "Index in World.branches; -1 outside of the vessel.")
@@ -76,7 +80,8 @@ void bindObservation(py::module_& module)
       .def_readonly("branches", &Snapshot::branches, "Branch of each instrument's tip, a tuple.")
       .def_readonly("nodes", &Snapshot::nodes, "As Session.nodes.")
       .def_readonly("forces", &Snapshot::forces, "As Session.forces.")
-      .def_readonly("sensors", &Snapshot::sensors, "As Session.sensors.");
+      .def_readonly("sensors", &Snapshot::sensors, "As Session.sensors.")
+      .def_readonly("blood", &Snapshot::blood, "As Session.blood.");
 }
 
 }  // namespace endovascular_sim::python

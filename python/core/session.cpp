@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
+#include "blood.h"
 #include "common/error.h"
 #include "common/hash.h"
 #include "errors.h"
@@ -483,6 +484,7 @@ manager. One thread at a time may use it: others raise UsageError, as every use 
   bindProgress(bound);
   bindStates(bound);
   bindHardware(bound);
+  bindBlood(bound);
   module.def("_session_of_pickle", &continued);
   module.attr("World").attr("session") = py::cpp_function(
       [](const std::shared_ptr<SharedWorld>& world, std::uint64_t seed, bool results, bool clients)

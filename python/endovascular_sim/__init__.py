@@ -15,7 +15,7 @@ _PLACES = {
     "env": ("Env",),
     "route": ("Route",),
     "vector": ("VectorEnv",),
-    "_core": ("Branch", "Error", "InputError", "Observation", "Reading", "Rollout", "Session", "UsageError", "World", "advance",
+    "_core": ("Blood", "Branch", "Error", "InputError", "Observation", "Reading", "Rollout", "Session", "UsageError", "World", "advance",
               "rollout"),
 }
 _MODULE_OF = {name: module for module, names in _PLACES.items() for name in names}

@@ -1,4 +1,5 @@
 from ._core import (
+    Blood as Blood,
     Branch as Branch,
     Error as Error,
     InputError as InputError,

@@ -4,13 +4,19 @@ import bz2
 import ctypes
 import ctypes.util
 import functools
+import heapq
 import os
 import re
 import struct
 
 import numpy as np
 
-from ._core import InputError
+try:
+    from ._core import InputError
+except ImportError:  # without the compiled part, which nothing else here needs
+
+    class InputError(ValueError):
+        """Input that cannot be used; the text names the file and what would be right."""
 
 _VERSION = b"#ROSBAG V2.0\n"
 _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7  # kinds of records
@@ -72,11 +78,8 @@ class Bag:
         if len(found) != 1:
             raise InputError("%s: %s topic %s; it has %s" % (self.path, "several matches of" if found else "no", topic,
                                                            ", ".join(sorted(self.topics)) or "none"))
-        for number, (name, kind, definition) in self._connections.items():
-            if name == found[0]:
-                layouts = _layouts(kind, definition)
-                for time, data in self._messages.get(number, ()):
-                    yield time, _decoded(layouts, kind, data)
+        streams = [self._stream(number) for number, (name, _, _) in self._connections.items() if name == found[0]]
+        yield from heapq.merge(*streams, key=lambda message: message[0])  # several nodes may publish a topic
 
     @functools.cached_property
     def info(self):
@@ -130,6 +133,13 @@ class Bag:
     @functools.cached_property
     def _states(self):
         return [state for _, state in self._all("rod/state_visual")]
+
+    def _stream(self, number):
+        """Messages of a connection, as of read()."""
+        _, kind, definition = self._connections[number]
+        layouts = _layouts(kind, definition)
+        for time, data in self._messages.get(number, ()):
+            yield time, _decoded(layouts, kind, data)
 
     def _columns(self, *names):
         rows = [[step[name] for name in names] for step in self._applied]

@@ -79,8 +79,14 @@ private:
   void add(std::vector<T>& values)
   {
     const std::size_t size = resized(values);
-    for (std::size_t k = 0; k < size; ++k)
-      add(values[k]);
+    if constexpr (std::is_arithmetic_v<T>)
+    {
+      if (size > 0)
+        raw(values.data(), size * sizeof(T));  // one block, with the bytes of the single numbers
+    }
+    else
+      for (std::size_t k = 0; k < size; ++k)
+        add(values[k]);
   }
 
   template <typename T>

@@ -22,12 +22,13 @@ enum class Phase
   kLayers,    ///< places of coaxial instruments, their loads on each other, and their friction
   kForces,    ///< at the hands and on the wall
   kBalloon,   ///< widths of balloons, and the motion of the wall
+  kBlood,     ///< flow of blood, where it is computed here, and its loads
   kControl,   ///< all else: commands, grips, copies of the state
 };
-constexpr std::size_t kPhaseCount = 11;
+constexpr std::size_t kPhaseCount = 12;
 constexpr std::array<const char*, kPhaseCount> kPhaseNames = {"collision", "assembly", "solve",    "sampling",
                                                               "twist",     "contact",  "friction", "layers",
-                                                              "forces",    "balloon",  "control"};
+                                                              "forces",    "balloon",  "blood",    "control"};
 
 /** Time spent per phase since the last reset. No result of the simulation depends on it. */
 class PhaseTimer

@@ -91,6 +91,15 @@ constexpr Quantity kFriction{"friction coefficients", "1", D::kFraction, 1e-3, 1
 constexpr Quantity kPressure{"pressures", "Pa", D::kPressure, 1000.0, 5e6, 100.0, 1e8};
 constexpr Quantity kPressureRange{"ranges of a pressure", "Pa", D::kPressure, 1000.0, 2e7, 0.0, 1e8};
 
+// Circulation.
+constexpr Quantity kHeartRate{"heart rates", "Hz", D::kFrequency, 0.4, 4.0, 0.05, 10.0};
+constexpr Quantity kBloodPressure{"blood pressures", "Pa", D::kPressure, 300.0, 3e4, 10.0, 1e5};
+constexpr Quantity kBloodFlow{"flows of blood", "m³/s", D::kOther, 1e-8, 5e-4, 1e-12, 5e-3};
+constexpr Quantity kStrokeVolume{"stroke volumes", "m³", D::kOther, 2e-5, 3e-4, 1e-7, 5e-3};
+constexpr Quantity kViscosity{"viscosities of blood", "Pa·s", D::kOther, 1e-3, 0.02, 1e-5, 1.0};
+constexpr Quantity kPulseTime{"parts of a heartbeat", "s", D::kTime, 5e-3, 5.0, 1e-4, 60.0};
+constexpr Quantity kWallModulus{"elasticities of vessel walls", "Pa", D::kModulus, 1e3, 1e8, 1.0, 1e12};
+
 // Materials and stiffness.
 constexpr Quantity kDensity{"densities of instruments", "kg/m³", D::kDensity, 300.0, 25e3, 20.0, 1e5};
 constexpr Quantity kFluidDensity{"fluid densities", "kg/m³", D::kDensity, 500.0, 2000.0, 0.0, 2e4};

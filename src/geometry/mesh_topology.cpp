@@ -7,6 +7,34 @@
 namespace endovascular_sim::geometry
 {
 
+namespace
+{
+
+bool precedes(const HalfEdge& x, const HalfEdge& y)
+{
+  return std::tie(x.low, x.high, x.triangle, x.side) < std::tie(y.low, y.high, y.triangle, y.side);
+}
+
+/** Sorts half-edges by the low vertex first, by counting: a vertex has few of them.
+ *  @param vertices number of vertices, above all indices */
+std::vector<HalfEdge> sortedByCounting(const std::vector<HalfEdge>& half_edges, std::size_t vertices)
+{
+  std::vector<std::size_t> begin(vertices + 1, 0);
+  for (const HalfEdge& edge : half_edges)
+    ++begin[static_cast<std::size_t>(edge.low) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  std::vector<HalfEdge> sorted(half_edges.size());
+  for (const HalfEdge& edge : half_edges)
+    sorted[next[static_cast<std::size_t>(edge.low)]++] = edge;
+  for (std::size_t v = 0; v < vertices; ++v)
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin[v]),
+              sorted.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), precedes);
+  return sorted;
+}
+
+}  // namespace
+
 std::vector<HalfEdge> sortedHalfEdges(const TriangleMesh& mesh)
 {
   std::vector<HalfEdge> half_edges;
@@ -18,9 +46,11 @@ std::vector<HalfEdge> sortedHalfEdges(const TriangleMesh& mesh)
       const int b = mesh.triangles[t][(side + 1) % 3];
       half_edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), side, a < b});
     }
-  std::sort(half_edges.begin(), half_edges.end(),
-            [](const HalfEdge& x, const HalfEdge& y)
-            { return std::tie(x.low, x.high, x.triangle, x.side) < std::tie(y.low, y.high, y.triangle, y.side); });
+  const auto vertices = static_cast<int>(mesh.vertices.size());
+  if (std::all_of(half_edges.begin(), half_edges.end(),
+                  [vertices](const HalfEdge& edge) { return edge.low >= 0 && edge.high < vertices; }))
+    return sortedByCounting(half_edges, mesh.vertices.size());
+  std::sort(half_edges.begin(), half_edges.end(), precedes);  // a mesh with invalid indices
   return half_edges;
 }
 

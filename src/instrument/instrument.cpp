@@ -23,6 +23,12 @@ const char* materialName(Material material)
   return "";
 }
 
+std::optional<PressureLine> pressureLineOf(const Instrument& instrument)
+{
+  const bool is_open = instrument.kind == Kind::kCatheter && instrument.inner_radius > 0.0;
+  return instrument.pressure_line || !is_open ? instrument.pressure_line : PressureLine();
+}
+
 double crossingRadius(const Instrument& instrument)
 {
   double radius = 0.0;

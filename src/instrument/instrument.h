@@ -40,6 +40,14 @@ struct Marker
   Material material = Material::kPlatinum;
 };
 
+/** Measurement of the pressure at an opening of the instrument, through its lumen or by a sensor on it. */
+struct PressureLine
+{
+  double from_tip = 0.0;            ///< distance of the opening from the tip [m]
+  double natural_frequency = 15.0;  ///< [Hz]
+  double damping = 0.3;             ///< damping ratio [1]
+};
+
 /** Interventional device: mechanics of the shaft, radiopacity, balloon and stent. */
 struct Instrument
 {
@@ -50,8 +58,12 @@ struct Instrument
   double inner_radius = 0.0;        ///< radius of the shaft's lumen, constant over its length; 0 without a lumen [m]
   std::vector<Marker> markers;      ///< in any order
   std::optional<Balloon> balloon;   ///< set for a balloon catheter
-  std::optional<Stent> stent;       ///< crimped on the centre of the balloon, or the bare stent
+  std::optional<PressureLine> pressure_line;  ///< empty: the usual one for a shaft with a lumen, else none
+  std::optional<Stent> stent;                 ///< crimped on the centre of the balloon, or the bare stent
 };
+
+/** Pressure line of an instrument: its own one, or the usual one of a catheter; none for a wire without a sensor. */
+std::optional<PressureLine> pressureLineOf(const Instrument& instrument);
 
 /** Crossing profile as a radius [m]: the largest of the sections, the folded balloon and the crimped stent. */
 double crossingRadius(const Instrument& instrument);

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "common/archive.h"
 #include "geometry/triangle_mesh.h"
@@ -28,6 +31,10 @@ public:
 
   /** Present mesh of the wall; null if another process keeps it. */
   virtual const geometry::TriangleMesh* mesh() const { return nullptr; }
+
+  /** Vertices of the version that contact detection uses; null if another process keeps it.
+   *  @throws InputError when another process does not send it */
+  virtual const std::vector<Eigen::Vector3d>* detected() { return nullptr; }
 
   /** True if the wall has been stretched beyond the critical stretch anywhere, as last reported. */
   virtual bool atRisk() const = 0;

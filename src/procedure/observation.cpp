@@ -35,6 +35,7 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
 {
   Observation observation;
   observation.time = simulation.time();
+  observation.hyperaemia = simulation.blood() != nullptr && simulation.blood()->controls().hyperaemia;
   for (int k = 0; k < simulation.instruments(); ++k)
   {
     InstrumentView view;

@@ -31,6 +31,7 @@ struct Observation
 {
   double time = 0.0;  ///< simulated time [s]
   std::vector<InstrumentView> instruments;
+  bool hyperaemia = false;  ///< of the circulation; false without flow
 };
 
 /** Length from the tip of an instrument to the proximal end of its foremost curve; 0 for a straight instrument [m]. */

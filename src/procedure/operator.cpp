@@ -69,6 +69,12 @@ const std::vector<drive::HandCommand>& Operator::next(const simulation::Simulati
   return advance(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
 }
 
+std::optional<bool> Operator::wantedHyperaemia() const
+{
+  const bool is_waiting = begun_ && progress_ == Progress::kRunning && !scene_.procedure->guided;
+  return is_waiting ? step().hyperaemia : std::nullopt;
+}
+
 void Operator::observe(const Observation& observation)
 {
   if (progress_ != Progress::kRunning)

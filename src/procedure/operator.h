@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,10 @@ public:
 
   /** Commands of the last call of next() or advance(). */
   const std::vector<drive::HandCommand>& commands() const { return hands_.commands(); }
+
+  /** Hyperaemia that the scripted operator sets in the present step. Empty: the step has no such value, or a person
+   * does the steps. */
+  std::optional<bool> wantedHyperaemia() const;
 
   Progress progress() const { return progress_; }
   /** Description of the failure: step, reason, position of the tip; empty without a failure. */

@@ -81,8 +81,8 @@ Progress StepExecution::observe(const Observation& observation, OperatorHands& h
 /** Duration for which the goal of the step must hold [s]. */
 double StepExecution::holdTime() const
 {
-  const bool is_guided_inflation = setting_.guided && step_.action == StepAction::kInflate;
-  return is_guided_inflation ? step_.duration : step_.until.held;
+  const bool is_of_person = setting_.guided && (step_.action == StepAction::kInflate || step_.hyperaemia.has_value());
+  return is_of_person ? step_.duration : step_.until.held;
 }
 
 /** True if a balloon has the pressure of the step, or more of it; for a pressure that is not positive, or less. */
@@ -96,6 +96,8 @@ bool StepExecution::isReached(const Observation& observation) const
 {
   if (setting_.guided && step_.action == StepAction::kInflate)
     return hasPressure(at(observation, active_));
+  if (setting_.guided && step_.hyperaemia)
+    return observation.hyperaemia == *step_.hyperaemia;
   if (step_.action == StepAction::kWait || step_.action == StepAction::kInflate)
     return observation.time - begin_time_ >= step_.duration - 1e-9;
   return isGoalReachedBy(at(observation, active_));

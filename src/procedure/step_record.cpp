@@ -50,7 +50,8 @@ std::string nameOf(const scene::StepScene& step)
     case StepAction::kWait:
       break;
   }
-  return formatted("wait %.1f s", step.duration);
+  const std::string wait = formatted("wait %.1f s", step.duration);
+  return !step.hyperaemia ? wait : wait + (*step.hyperaemia ? " in hyperaemia" : " at rest");
 }
 
 }  // namespace endovascular_sim::procedure

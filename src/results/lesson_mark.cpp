@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include "common/error.h"
 #include "common/text/format.h"
 
 namespace endovascular_sim::results
@@ -96,6 +98,29 @@ std::vector<Mark> lessonMarks(const SessionMetrics& metrics)
   {
     const double missing = missingSteps(metrics);
     marks.insert(marks.begin(), {kMissingSteps, missing, 0.0, "", missing == 0.0});
+  }
+  return marks;
+}
+
+std::vector<Mark> marksOfFile(const std::string& file)
+{
+  std::ifstream stream(file);
+  if (!stream)
+    throw InputError(file, "", "cannot be read; give the metrics.json of a session");
+  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  std::vector<Mark> marks;
+  try
+  {
+    if (json.is_discarded())
+      throw InputError(file, "", "is no JSON; give the metrics.json of a session");
+    if (!json.contains("lesson") || json["lesson"].is_null())
+      return marks;
+    for (const auto& mark : json["lesson"].at("marks"))
+      marks.push_back({mark.at("mark"), mark.at("value"), mark.at("limit"), mark.at("unit"), mark.at("passed")});
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    throw InputError(file, "lesson", std::string("is not that of a metrics.json (") + error.what() + ")");
   }
   return marks;
 }

@@ -26,6 +26,10 @@ struct Mark
  *  @return empty without pass marks */
 std::vector<Mark> lessonMarks(const SessionMetrics& metrics);
 
+/** Marks in a metrics.json, without their limits where it has none; empty without marks.
+ *  @throws InputError when the file cannot be read or is no metrics.json */
+std::vector<Mark> marksOfFile(const std::string& file);
+
 /** Number of steps that were done before the recording, which then begins with a saved state [1]. */
 std::size_t stepsBefore(const SessionMetrics& metrics);
 

@@ -7,6 +7,7 @@
 
 #include "common/text/format.h"
 #include "common/units.h"
+#include "instrument/instrument.h"
 #include "results/lesson_mark.h"
 #include "results/svg_plot.h"
 
@@ -145,6 +146,28 @@ std::string lesionsTable(const Json& json)
   return "<h2>Lesions</h2>\n" + table.text();
 }
 
+/** Pd/Pa at rest and fractional flow reserve of lesions, by the pressures in the vessel and by pressure wires. */
+std::string pressureTable(const Json& json)
+{
+  if (!json.contains("pressure"))
+    return "";
+  const auto ratio = [](const Json& value) { return value.is_null() ? std::string() : number("%.2f", value); };
+  Table table({"", "Pd/Pa at rest, before", "after", "FFR before", "after"});
+  const auto add = [&](const std::string& name, const Json& one)
+  {
+    table.add({name, ratio(one["pd_pa_before"]), ratio(one["pd_pa_after"]), ratio(one["ffr_before"]),
+               ratio(one["ffr_after"])});
+  };
+  const Json& pressure = json["pressure"];
+  for (const Json& one : pressure["lesions"])
+    add("lesion in " + json["lesions"].at(one["lesion"].get<std::size_t>())["branch"].get<std::string>(), one);
+  for (const Json& one : pressure["wires"])
+    add(one["instrument"].get<std::string>() + " behind " + one["catheter"].get<std::string>() + ", measured", one);
+  return "<h2>Blood pressure</h2>\n<p>FFR: mean pressure behind a lesion divided by that before it, in hyperaemia; "
+         "significant below 0.80.</p>\n" +
+         table.text();
+}
+
 std::string errorTables(const Json& json)
 {
   std::string html = "<h2>Wrong branches</h2>\n";
@@ -171,6 +194,34 @@ std::string faultsTable(const Json& json)
     table.add({one["fault"], number("%.2f", one["begin"]), number("%.2f", one["end"]), number("%.0f", one["steps"])});
   return "<h2>Faults of the simulator</h2>\n<p>Forces during these times do not count as errors of the trainee.</p>\n" +
          table.text();
+}
+
+/** Remarks of the teacher, and steps that the recording lacks; empty without any. */
+std::string notesTables(const SessionMetrics& metrics, const Json& json)
+{
+  std::string html;
+  if (json.contains("marks"))
+  {
+    Table table({"at [s]", "remark"});
+    for (const Json& one : json["marks"])
+      table.add({number("%.1f", one["time"]), one["text"]});
+    html += "<h2>Remarks of the teacher</h2>\n" + table.text();
+  }
+  if (json.contains("gaps"))
+  {
+    const double time_step = metrics.scene().solver.time_step;
+    Table table({"first step", "last step", "from [s]", "to [s]", "bag before", "bag after"});
+    for (const Json& one : json["gaps"])
+      table.add({number("%.0f", one["first_step"]), number("%.0f", one["last_step"]),
+                 number("%.2f", one["first_step"].get<double>() * time_step),
+                 number("%.2f", (one["last_step"].get<double>() + 1.0) * time_step), one["previous"], one["next"]});
+    html +=
+        "<h2>Not recorded</h2>\n<p>The recorder failed or was stopped. The simulation went on; times and errors of "
+        "these "
+        "steps are missing on this page.</p>\n" +
+        table.text();
+  }
+  return html;
 }
 
 using Quantity = std::function<double(const Sample&, std::size_t)>;
@@ -239,6 +290,37 @@ std::string timePlots(const SessionMetrics& metrics)
   return html;
 }
 
+/** Mean pressure of each beat at the inlet of the vessel, behind lesions, and at the instruments' pressure lines. */
+std::string pressurePlot(const SessionMetrics& metrics)
+{
+  const PressureCourse course = metrics.pressure();
+  if (course.empty())
+    return "";
+  SvgPlot svg;
+  svg.title = "Mean pressure of each beat";
+  svg.abscissa = "time [s]";
+  svg.ordinate = "[mmHg]";
+  svg.bands = phaseBands(metrics);
+  const auto add = [&](const std::string& name, const auto& value)
+  {
+    PlotLine line{name, colour(svg.lines.size()), {}};
+    for (std::size_t k = 0; k < course.times().size(); ++k)
+      line.points.emplace_back(course.times()[k], value(course.beats()[k]) / units::kMillimetreOfMercury);
+    svg.lines.push_back(std::move(line));
+  };
+  add("aorta", [](const flow::BeatMeans& beat) { return beat.root; });
+  for (std::size_t k = 0; k < course.beats().front().lesions.size(); ++k)
+    add("behind lesion " + std::to_string(k + 1), [k](const flow::BeatMeans& beat) { return beat.lesions[k]; });
+  std::size_t next = 0;
+  for (const scene::DrivenInstrument& driven : metrics.scene().instruments)
+    if (instrument::pressureLineOf(driven.instrument))
+    {
+      add(driven.instrument.name, [next](const flow::BeatMeans& beat) { return beat.readings[next]; });
+      ++next;
+    }
+  return svg.text();
+}
+
 /** Frontal map of the tip paths and the centreline of the vessel. */
 std::string tipMap(const SessionMetrics& metrics)
 {
@@ -272,8 +354,9 @@ std::string tipMap(const SessionMetrics& metrics)
 std::string metricsPage(const SessionMetrics& metrics)
 {
   const Json json = metrics.json();
-  return kHead + summary(json) + lessonTable(metrics) + stepsTable(json) + instrumentsTable(json) + lesionsTable(json) +
-         errorTables(json) + faultsTable(json) + timePlots(metrics) + tipMap(metrics) + "</body></html>\n";
+  return kHead + summary(json) + lessonTable(metrics) + notesTables(metrics, json) + stepsTable(json) +
+         instrumentsTable(json) + lesionsTable(json) + pressureTable(json) + errorTables(json) + faultsTable(json) +
+         timePlots(metrics) + pressurePlot(metrics) + tipMap(metrics) + "</body></html>\n";
 }
 
 }  // namespace endovascular_sim::results

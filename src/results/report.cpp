@@ -58,11 +58,9 @@ Json valueOf(const std::string& text)
 
 Json toJson(const RecordingOutcome& recording)
 {
-  return {{"file", recording.file},
-          {"bytes", recording.bytes},
-          {"messages", recording.messages},
-          {"dropped", recording.dropped},
-          {"error", recording.error.empty() ? Json(nullptr) : Json(recording.error)}};
+  return {{"file", recording.file},         {"bytes", recording.bytes},
+          {"messages", recording.messages}, {"dropped", recording.dropped},
+          {"previous", recording.previous}, {"error", recording.error.empty() ? Json(nullptr) : Json(recording.error)}};
 }
 
 Json toJson(const std::map<std::string, std::map<std::string, std::string>>& diagnostics)
@@ -116,6 +114,13 @@ void SessionReport::addStep(std::uint64_t step, double wall_time, bool stale, st
   last_wall_time_ = wall_time;
   last_state_hash_ = state_hash;
   stale_steps_ += stale ? 1 : 0;
+}
+
+void SessionReport::setWallTimes(double wall_time, double longest_pause)
+{
+  first_wall_time_ = 0.0;
+  last_wall_time_ = wall_time;
+  longest_pause_ = longest_pause;
 }
 
 void SessionReport::addHands(const std::vector<double>& forces, const std::vector<double>& torques)
@@ -194,9 +199,12 @@ std::string SessionReport::json(const RecordingOutcome& recording, const std::st
   report["software_version"] = identity_.software_version;
   report["commit"] = identity_.commit;
   report["physics"] = identity_.physics;
+  report["subject"] = subject_.empty() ? Json(nullptr) : Json(subject_);
   report["error"] = error.empty() ? Json(nullptr) : Json(error);
   report["steps"] = steps_;
   report["steps_missing_from_recording"] = missed_steps_;
+  report["gaps"] = toJson(notes_.gaps);
+  report["marks"] = toJson(notes_.remarks);
   report["steps_repeated"] = repeated_steps_;
   report["simulated_time"] = simulatedTime();
   report["wall_time"] = wallTime();

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "results/recording_notes.h"
 #include "results/wall_force_map.h"
 
 namespace endovascular_sim::results
@@ -55,8 +56,9 @@ struct RecordingOutcome
   std::string file;
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
-  std::uint64_t dropped = 0;  ///< messages dropped: after an early end, or because the disk was too slow
-  std::string error;          ///< reason of an early end; empty: the recording is complete
+  std::uint64_t dropped = 0;          ///< messages dropped: after an early end, or because the disk was too slow
+  std::vector<std::string> previous;  ///< names of the bags of the same run before this one
+  std::string error;                  ///< reason of an early end; empty: the recording is complete
 };
 
 /** Report of a session, accumulated from its data. The class depends on no clock and no messages. */
@@ -65,8 +67,19 @@ class SessionReport
 public:
   explicit SessionReport(SessionIdentity identity);
 
+  /** @param subject pseudonym of the trainee; empty: unknown */
+  void setSubject(const std::string& subject) { subject_ = subject; }
+  void add(const Remark& remark) { notes_.remarks.push_back(remark); }
+  void add(const RecordingGap& gap) { notes_.gaps.push_back(gap); }
+  const RecordingNotes& notes() const { return notes_; }
+
   void setMeshHash(std::uint64_t mesh_hash) { identity_.mesh_hash = mesh_hash; }
   const SessionIdentity& identity() const { return identity_; }
+
+  /** Sets wall times that addStep() could not know, because its clock is not that of the wall.
+   *  @param wall_time between the first and the last step [s]
+   *  @param longest_pause between two steps [s] */
+  void setWallTimes(double wall_time, double longest_pause);
 
   /** Sets the first step that the session should hold, by default 0. */
   void setFirstStep(std::uint64_t step) { expected_first_ = step; }
@@ -93,7 +106,7 @@ public:
   void addVesselPoint(const Eigen::Vector3d& point) { vessel_box_.extend(point); }
 
   void addFluoroscopyFrame() { ++fluoroscopy_frames_; }
-  void addFluoroscopyPicture() { ++fluoroscopy_pictures_; }
+  void addFluoroscopyPictures(std::uint64_t count) { fluoroscopy_pictures_ += count; }
 
   /** Sets the latest value of a diagnostic of a node. */
   void addDiagnostic(const std::string& node, const std::string& key, const std::string& value);
@@ -101,7 +114,8 @@ public:
   std::uint64_t steps() const { return steps_; }
   std::uint64_t lastStep() const { return steps_ > 0 ? last_step_ + 1 : 0; }  ///< number of the last step, from 1
   double simulatedTime() const;                                               ///< simulated time [s]
-  double wallTime() const;  ///< wall time between the first and the last step [s]
+  double wallTime() const;                                ///< wall time between the first and the last step [s]
+  double longestPause() const { return longest_pause_; }  ///< longest wall time between two steps [s]
   /** Ratio of simulated to elapsed time; empty before the second step. */
   std::optional<double> realTimeFactor() const;
   /** Latest value of a diagnostic of a node; empty if it is missing or not a number. */
@@ -115,6 +129,8 @@ public:
 
 private:
   SessionIdentity identity_;
+  std::string subject_;
+  RecordingNotes notes_;
   std::uint64_t steps_ = 0;
   std::uint64_t expected_first_ = 0;
   std::uint64_t first_step_ = 0;

@@ -389,6 +389,17 @@ Json SessionMetrics::stepsJson(const std::vector<WrongBranch>& stays) const
   return json;
 }
 
+void SessionMetrics::addBeat(const flow::BeatMeans& means)
+{
+  // The result of a step of the flow acts one such step later.
+  pressure_.add(static_cast<double>(means.step + 1) * scene_.flow->time_step, means);
+}
+
+PressureCourse SessionMetrics::pressure() const
+{
+  return pressure_.until(samples_.empty() ? 0.0 : samples_.back().observation.time);
+}
+
 Json SessionMetrics::json() const
 {
   Json json = {{"scene", scene_.name}};
@@ -417,8 +428,14 @@ Json SessionMetrics::json() const
   if (wall_forces_)
     json["wall_forces"].erase("triangles");
   json["lesions"] = toJson(lesions_);
+  if (const PressureCourse course = pressure(); !course.empty())
+    json["pressure"] = course.json(scene_);
   json["errors"] = errorsJson();
   json["simulator_faults"] = faultsJson();
+  if (!notes_.remarks.empty())
+    json["marks"] = toJson(notes_.remarks);
+  if (!notes_.gaps.empty())
+    json["gaps"] = toJson(notes_.gaps);
   return json;
 }
 

@@ -13,6 +13,8 @@
 #include "procedure/branch_locator.h"
 #include "procedure/operator.h"
 #include "procedure/support_watch.h"
+#include "results/pressure_course.h"
+#include "results/recording_notes.h"
 #include "results/session_sample.h"
 #include "results/treatment_report.h"
 #include "results/wall_force_map.h"
@@ -82,6 +84,12 @@ public:
   const std::optional<WallForceSummary>& wallForces() const { return wall_forces_; }
   const std::vector<LesionOutcome>& lesions() const { return lesions_; }
   void setLesions(std::vector<LesionOutcome> lesions) { lesions_ = std::move(lesions); }
+  /** Sets what the recording holds beside the motion: remarks of a teacher, and steps that are missing in it. */
+  void setNotes(RecordingNotes notes) { notes_ = std::move(notes); }
+  /** Adds the mean pressures of a beat; those of the newest one change nothing. @pre the scene has the key `flow` */
+  void addBeat(const flow::BeatMeans& means);
+  /** Pressures up to the last sample. */
+  PressureCourse pressure() const;
   /** Adds an event of a treatment if it is an error. */
   void addEvent(const std::string& kind, int instrument, double time);
 
@@ -130,7 +138,9 @@ private:
   std::string failure_;
   std::optional<WallForceSummary> wall_forces_;
   std::vector<LesionOutcome> lesions_;
+  PressureCourse pressure_;
   std::vector<SessionError> errors_;
+  RecordingNotes notes_;
   std::vector<bool> ahead_;            ///< for each instrument: true if its tip is ahead of all guidewires
   std::vector<double> ahead_time_;     ///< for each instrument: time ahead of all guidewires [s]
   std::size_t perforation_error_ = 0;  ///< index of the latest perforation risk in errors_

@@ -91,13 +91,19 @@ std::string findSceneFile(const yaml::Node& node, const std::string& path, const
           "; give the path of an existing file");
 }
 
-std::string findAnatomy(const yaml::Node& node, const std::string& path, const std::string& scene_file)
+namespace
+{
+
+/** File of a package's folder by its word, or else by its path.
+ *  @param kind of file, e.g. "anatomy" */
+std::string findNamed(const yaml::Node& node, const std::string& path, const std::string& scene_file,
+                      const char* folder_name, const std::string& kind)
 {
   const bool is_word = node.kind == yaml::Node::Kind::kScalar && !node.text.empty() &&
                        node.text.find_first_of("./\\") == std::string::npos;
   if (!is_word)
     return findSceneFile(node, path, scene_file);
-  const fs::path folder = fs::path(configFolder()) / "anatomies";
+  const fs::path folder = fs::path(configFolder()) / folder_name;
   std::error_code error;
   if (const fs::path file = folder / (node.text + ".yaml"); fs::is_regular_file(file, error))
     return file.string();
@@ -109,7 +115,19 @@ std::string findAnatomy(const yaml::Node& node, const std::string& path, const s
   for (const std::string& name : known)
     names += (names.empty() ? "" : ", ") + name;
   throw InputError(node.file, path + node.location(),
-                   "no anatomy \"" + node.text + "\"; known: " + names + "; or give the path of an anatomy file");
+                   "no " + kind + " \"" + node.text + "\"; known: " + names + "; or give the path of a file of one");
+}
+
+}  // namespace
+
+std::string findAnatomy(const yaml::Node& node, const std::string& path, const std::string& scene_file)
+{
+  return findNamed(node, path, scene_file, "anatomies", "anatomy");
+}
+
+std::string findCirculation(const yaml::Node& node, const std::string& path, const std::string& scene_file)
+{
+  return findNamed(node, path, scene_file, "hemodynamics", "circulation");
 }
 
 }  // namespace endovascular_sim::scene

@@ -27,4 +27,8 @@ std::string findSceneFile(const yaml::Node& node, const std::string& path, const
  *  @throws InputError listing the anatomies of the package for an unknown word */
 std::string findAnatomy(const yaml::Node& node, const std::string& path, const std::string& scene_file);
 
+/** Finds the file of a circulation in the same way: `adult` names a file of config/hemodynamics.
+ *  @throws InputError listing those of the package for an unknown word */
+std::string findCirculation(const yaml::Node& node, const std::string& path, const std::string& scene_file);
+
 }  // namespace endovascular_sim::scene

@@ -22,7 +22,7 @@ const std::string kStentSystem =
     "{name: b, kind: balloon_catheter, inner_radius: 5e-4,"
     " sections: [{length: 0.5, radius: 7e-4, material: polymer, density: 1200, young_modulus: 1e9, poisson_ratio: "
     "0.3}],"
-    " markers: [{from_tip: 0.01, length: 1e-3}],"
+    " markers: [{from_tip: 0.01, length: 1e-3}], pressure_line: {},"
     " balloon: {from_tip: 0.005, length: 0.02, folded_diameter: 1e-3, compliance: [[6e5, 2.8e-3], [1.6e6, 3.2e-3]],"
     " nominal_pressure: 1e6, rated_burst_pressure: 1.6e6, burst_pressure: 2e6, inflation_time: 1, deflation_time: 1},"
     " stent: {crimped_diameter: 1e-3, nominal_diameter: 3e-3, strut_thickness: 8e-5, recoil: 0.05,"
@@ -40,7 +40,8 @@ const std::vector<std::string> kScenes = {
         " {at: [0, 0, 0.1], length: 0.01, grade: 0.5}]}\ninstrument: " +
         kWire +
         "\ndrive: {source: script, speed: 0.01, travel: 0.1, limits: {insertion: [0, 0.5]}}\nfluoroscopy: {isocentre: "
-        "[0, 0, 0], energy: 60, field: [0.1, 0.1], gantry: {}}\nerrors: {}\n",
+        "[0, 0, 0], energy: 60, field: [0.1, 0.1], gantry: {}}\nerrors: {}\n"
+        "flow: {circulation: {outlets: {territories: [{branch: tube, share: 0.5}]}}}\n",
     // a mesh, adaptive sampling, profiles, a robot
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}\n"
     "entry: {nearest_centreline_end: true, position: [0, 0, 0]}\ninstrument: " +

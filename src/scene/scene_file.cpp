@@ -23,6 +23,21 @@ void expandProcedure(yaml::Node& procedure, const std::string& file)
     procedure = yaml::readTree(findSceneFile(procedure, "procedure", file));
 }
 
+/** Replaces the word or the path of a circulation with the content of its file; `flow: adult` is short for
+ * `flow: {circulation: adult}`. */
+void expandFlow(yaml::Node& flow, const std::string& file)
+{
+  if (flow.kind == yaml::Node::Kind::kScalar)
+  {
+    const yaml::Node word = flow;
+    flow.kind = yaml::Node::Kind::kMap;
+    flow.fields.emplace_back("circulation", word);
+  }
+  yaml::Node* circulation = flow.field("circulation");
+  if (circulation != nullptr && circulation->kind == yaml::Node::Kind::kScalar)
+    *circulation = yaml::readTree(findCirculation(*circulation, "flow.circulation", file));
+}
+
 /** Treats `part: none` as a missing key. */
 void removeIfNone(yaml::Node* part)
 {
@@ -41,8 +56,10 @@ void normalise(yaml::Node& root, const std::string& file)
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
   if (yaml::Node* procedure = root.field("procedure"))
     expandProcedure(*procedure, file);
-  for (const char* part : {"vessel", "sensors", "faults"})
+  for (const char* part : {"vessel", "sensors", "faults", "flow"})
     removeIfNone(root.field(part));
+  if (yaml::Node* flow = root.field("flow"))
+    expandFlow(*flow, file);
   yaml::Node* fluoroscopy = root.field("fluoroscopy");
   removeIfNone(fluoroscopy);
   if (fluoroscopy != nullptr)
@@ -158,6 +175,18 @@ Scene loadScene(const std::string& file, const std::vector<std::string>& overrid
 Scene parseScene(const std::string& yaml, const std::string& origin, const std::vector<std::string>& overrides)
 {
   return buildScene(yaml::parseTree(yaml, origin), origin, overrides);
+}
+
+std::string recordSubject(const std::string& file, const std::vector<std::string>& overrides)
+{
+  yaml::Node root = yaml::readTree(file);
+  // Other overrides may need files that the scene names.
+  for (const std::string& override_text : overrides)
+    if (override_text.rfind("record.", 0) == 0)
+      yaml::overrideTree(root, override_text, file);
+  const yaml::Node* record = root.find("record");
+  const yaml::Node* subject = record != nullptr ? record->find("subject") : nullptr;
+  return subject != nullptr ? subject->text : std::string();
 }
 
 Scene parseRecordedScene(const std::string& yaml, const std::string& origin)

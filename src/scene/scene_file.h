@@ -21,4 +21,9 @@ Scene parseScene(const std::string& yaml, const std::string& origin, const std::
 /** Parses the resolved text of a recording. The recording contains the vessel, so the vessel's files may be missing. */
 Scene parseRecordedScene(const std::string& yaml, const std::string& origin);
 
+/** Pseudonym of the trainee, key `record.subject` of a scene file; empty without one. It is no part of the scene, whose
+ * hash does not depend on it.
+ *  @param file, overrides as for loadScene(), which has accepted them */
+std::string recordSubject(const std::string& file, const std::vector<std::string>& overrides);
+
 }  // namespace endovascular_sim::scene

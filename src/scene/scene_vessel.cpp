@@ -152,7 +152,8 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
 
 CentrelineUse centrelineUse(const Scene& scene)
 {
-  return scene.sampling.kind == SamplingKind::kAdaptive ? CentrelineUse::kRequired : CentrelineUse::kIfCheap;
+  const bool required = scene.sampling.kind == SamplingKind::kAdaptive || scene.flow;
+  return required ? CentrelineUse::kRequired : CentrelineUse::kIfCheap;
 }
 
 contact::WallLaw wallLaw(const VesselScene& scene)

@@ -1,6 +1,7 @@
 #include "session/observation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulation/instrument_tip.h"
 
@@ -18,6 +19,31 @@ procedure::BranchPosition Observation::branch(int instrument) const
   const double insertion = hand(instrument).insertion;
   return insertion > 0.0 ? world_.branches()->at(simulation::pointAt(simulation_, insertion))
                          : procedure::BranchPosition();
+}
+
+const flow::FlowField* Observation::blood() const
+{
+  return simulation_.blood() != nullptr ? simulation_.blood()->field() : nullptr;
+}
+
+double Observation::pressure(int instrument) const
+{
+  const int line = simulation_.blood() != nullptr ? simulation_.blood()->lineOf(instrument) : -1;
+  return line < 0 || blood() == nullptr ? std::nan("") : blood()->readings[static_cast<std::size_t>(line)];
+}
+
+double Observation::bloodFlow(const Eigen::Vector3d& point) const
+{
+  if (blood() == nullptr)
+    return std::nan("");
+  return simulation_.blood()->places().flowAt(*blood(), simulation_.blood()->paths().locate(point));
+}
+
+double Observation::bloodPressure(const Eigen::Vector3d& point) const
+{
+  if (blood() == nullptr)
+    return std::nan("");
+  return simulation_.blood()->places().pressureAt(*blood(), simulation_.blood()->paths().locate(point));
 }
 
 const std::vector<simulation::WallContact>& Observation::forces() const

@@ -62,8 +62,25 @@ public:
   /** Forces between wall and wire, one per touching node; computed by the first call after a step. */
   const std::vector<simulation::WallContact>& forces() const;
 
+  /** Pressure at an instrument's opening through its line, relative to the air [Pa]; NaN without a line, and before the
+   *  first step of the flow. */
+  double pressure(int instrument) const;
+
+  /** Pressure [Pa] and flow [m³/s] of the blood in the whole vessel; null in a scene without the key `flow`, and before
+   *  the first step of the flow. */
+  const flow::FlowField* blood() const;
+
+  /** Flow of the blood at a point of the vessel, positive away from the heart [m³/s]; NaN as pressure().
+   *  @param point patient frame [m] */
+  double bloodFlow(const Eigen::Vector3d& point) const;
+
+  /** Pressure of the blood at a point of the vessel [Pa]; NaN as pressure(). @param point patient frame [m] */
+  double bloodPressure(const Eigen::Vector3d& point) const;
+
   /** Sensors of the scene: measured values beside the true ones of the other functions. */
   const simulation::Sensors& sensors() const { return sensors_; }
+
+  const simulation::Simulation& simulation() const { return simulation_; }
 
   /** Events of balloons and stents so far. */
   const std::vector<simulation::TimedEvent>& events() const { return simulation_.events(); }

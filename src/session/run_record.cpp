@@ -32,6 +32,8 @@ void RunRecord::addStep(const simulation::Simulation& simulation, const std::vec
   results::addStep(*wall_forces_, simulation, contacts, scene_->solver.time_step);
   if (sampler_.addStep(*scene_, simulation, contacts))
     metrics_->add(sampler_.sample());
+  if (simulation.blood() != nullptr && simulation.blood()->field() != nullptr)
+    metrics_->addBeat(simulation.blood()->field()->means);
 }
 
 void RunRecord::finish(const simulation::Simulation& simulation, const procedure::Operator* scripted,

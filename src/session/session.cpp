@@ -57,8 +57,25 @@ struct Session::Run
       hardware(*scene, seed),
       observation(simulation, *world, hardware.sensors())
   {
+    if (scene->flow && world->vessel() != nullptr)
+      addBlood(settings);
     if (scene->procedure && world->vessel() != nullptr)
       scripted.emplace(*scene, world->branches(), world->entry().position);
+  }
+
+  void addBlood(const SessionSettings& settings)
+  {
+    std::shared_ptr<flow::FlowSource> source = settings.flow;
+    if (!source)
+      source = std::make_shared<flow::LocalFlowSource>(world->flow());
+    intervention::DeformableWall* const deformable = settings.wall ? settings.wall.get() : wall.get();
+    simulation.setBlood(
+        std::make_unique<simulation::BloodCoupling>(*scene, world->bloodVessel(), world->entry(), std::move(source)),
+        [deformable, rigid = &world->vessel()->mesh.vertices]() -> const std::vector<Eigen::Vector3d>&
+        {
+          const std::vector<Eigen::Vector3d>* detected = deformable != nullptr ? deformable->detected() : nullptr;
+          return detected != nullptr ? *detected : *rigid;
+        });
   }
 
   std::shared_ptr<const World> world;
@@ -197,6 +214,13 @@ const std::vector<drive::HandCommand>* Session::scriptedCommands()
   if (run.scripted && run.observed_steps != run.simulation.steps() + 1)
   {
     run.scripted->next(run.simulation);
+    if (const std::optional<bool> wanted = run.scripted->wantedHyperaemia();
+        wanted && run.simulation.blood() != nullptr)
+    {
+      flow::FlowControls controls = run.simulation.blood()->controls();
+      controls.hyperaemia = *wanted;
+      run.simulation.blood()->setControls(controls);
+    }
     run.observed_steps = run.simulation.steps() + 1;
   }
   return run.scripted ? &run.scripted->commands() : nullptr;
@@ -313,6 +337,22 @@ std::uint64_t Session::noiseSeed() const
 void Session::setNoiseSeed(std::uint64_t seed)
 {
   run().hardware.setSeed(seed);
+}
+
+const flow::FlowControls& Session::flowControls() const
+{
+  if (run().simulation.blood() == nullptr)
+    throw std::logic_error("Session: blood does not flow in this scene; give the key flow");
+  return run().simulation.blood()->controls();
+}
+
+void Session::setFlowControls(const flow::FlowControls& controls)
+{
+  flowControls();
+  const std::string refusal = flow::refusalOf(controls);
+  if (!refusal.empty())
+    throw std::invalid_argument("Session: " + refusal);
+  run().simulation.blood()->setControls(controls);
 }
 
 const std::vector<drive::HandCommand>& Session::executedCommands() const

@@ -9,6 +9,7 @@
 #include "common/progress.h"
 #include "contact/contract/contact_set.h"
 #include "drive/hand_control.h"
+#include "flow/coupling/flow_source.h"
 #include "fluoroscopy/fluoroscope.h"
 #include "geometry/triangle_mesh.h"
 #include "intervention/deformable_wall.h"
@@ -40,6 +41,8 @@ struct SessionSettings
   /** Wall that balloons deform in place of one in this process; null: that one. With a source of contact sets of its
    *  own, a scene with a balloon needs such a wall, too. */
   std::shared_ptr<intervention::DeformableWall> wall;
+  /** Source of the steps of the flow of blood in place of one in this process; null: that one. */
+  std::shared_ptr<flow::FlowSource> flow;
   bool varied = true;  ///< false: load() refuses a state with a varied start
 };
 
@@ -116,6 +119,16 @@ public:
 
   /** Stops of an instrument in that scale, see Simulation::stops(). */
   drive::Interval stops(int instrument) const;
+
+  // ----------------------------------------------------------------------------------------------- flow of blood
+
+  /** Heart rate, mean pressure and hyperaemia. @throws std::logic_error for a scene without the key `flow` @{ */
+  const flow::FlowControls& flowControls() const;
+
+  /** Sets them from the next step of the flow on.
+   *  @throws std::invalid_argument for values outside flow::refusalOf() */
+  void setFlowControls(const flow::FlowControls& controls);
+  /** @} */
 
   // -------------------------------------------------------------------------------------- faults and random errors
 

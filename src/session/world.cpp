@@ -122,6 +122,24 @@ const std::shared_ptr<const procedure::BranchLocator>& World::branches() const
   return branches_;
 }
 
+const flow::FlowEngine& World::flow() const
+{
+  if (!scene_.flow || !vessel_)
+    throw std::logic_error("World: the scene has no flow");
+  std::call_once(flow_known_, [this]
+                 { flow_ = std::make_unique<const flow::FlowEngine>(simulation::makeFlowEngine(scene_, *vessel_)); });
+  return *flow_;
+}
+
+std::shared_ptr<const simulation::BloodVessel> World::bloodVessel() const
+{
+  if (!scene_.flow || !vessel_)
+    throw std::logic_error("World: the scene has no flow");
+  std::call_once(tree_known_,
+                 [this] { blood_vessel_ = std::make_shared<const simulation::BloodVessel>(scene_, *vessel_); });
+  return blood_vessel_;
+}
+
 const XRayVolume& World::patient() const
 {
   std::call_once(patient_loaded_,

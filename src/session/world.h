@@ -10,10 +10,12 @@
 
 #include "common/progress.h"
 #include "contact/wall_model.h"
+#include "flow/coupling/flow_engine.h"
 #include "fluoroscopy/patient/volume_projection.h"
 #include "procedure/branch_locator.h"
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
+#include "simulation/blood_coupling.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim::session
@@ -91,6 +93,14 @@ public:
   /** Branches of the vessel with the procedure's names, prepared by the first call; none without a centreline. */
   const std::shared_ptr<const procedure::BranchLocator>& branches() const;
 
+  /** Flow of blood at the beginning, prepared by the first call.
+   *  @throws std::logic_error for a scene without the key `flow`
+   *  @throws InputError for a vessel whose centreline is no tree */
+  const flow::FlowEngine& flow() const;
+
+  /** Tree of the vessel for couplings with the flow; as flow(). */
+  std::shared_ptr<const simulation::BloodVessel> bloodVessel() const;
+
   /** Patient of the X-ray image, loaded by the first call.
    *  @throws InputError when the patient cannot be loaded; a further call tries again */
   const XRayVolume& patient() const;
@@ -109,8 +119,10 @@ private:
   std::uint64_t mesh_hash_ = 0;
   scene::EntryPose entry_;
   mutable std::shared_ptr<const contact::WallModel> wall_;
-  mutable std::once_flag wall_prepared_, branches_known_, patient_loaded_, free_length_known_;
+  mutable std::once_flag wall_prepared_, branches_known_, patient_loaded_, free_length_known_, flow_known_, tree_known_;
   mutable std::shared_ptr<const procedure::BranchLocator> branches_;
+  mutable std::unique_ptr<const flow::FlowEngine> flow_;
+  mutable std::shared_ptr<const simulation::BloodVessel> blood_vessel_;
   mutable XRayVolume patient_;
   mutable double free_length_ = 0.0;  ///< from the entry to the wall along its direction [m]
 };

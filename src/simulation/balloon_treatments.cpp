@@ -128,6 +128,14 @@ bool BalloonTreatments::isHeldBack(const InstrumentTreatment& treated, double co
   return covered_from < proximal_end && 0.5 * stent.outerDiameter() > lumen;
 }
 
+double BalloonTreatments::presentRadius(int instrument) const
+{
+  for (const InstrumentTreatment& treated : treatments_)
+    if (treated.instrument == instrument && !treated.widths.empty())
+      return *std::max_element(treated.widths.begin(), treated.widths.end());
+  return 0.0;
+}
+
 std::uint64_t BalloonTreatments::beginStep(std::uint64_t step)
 {
   if (wall_ == nullptr)

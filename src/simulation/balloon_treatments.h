@@ -76,6 +76,9 @@ public:
   /** Treatment of an instrument; null for one without a balloon. */
   const intervention::Treatment* of(int instrument) const;
 
+  /** Largest radius of an instrument's balloon at the last contact query, limited by the wall [m]; 0 without one. */
+  double presentRadius(int instrument) const;
+
   /** Saves or loads all data that change, with those of the wall. */
   void archive(Archive& archive);
 

@@ -26,6 +26,7 @@ public:
   void activate(std::uint64_t version) override;
   std::uint64_t version() const override { return history_.newest(); }
   const geometry::TriangleMesh* mesh() const override { return &opening_.mesh(); }
+  const std::vector<Eigen::Vector3d>* detected() override { return &detector_.wall().vertices; }
   bool atRisk() const override { return opening_.atRisk(); }
 
   std::string save() override;

@@ -431,6 +431,22 @@ void Simulation::endTreatments()
   treatments_.endStep(steps_, pressures_, state_, discretisation());
 }
 
+void Simulation::setBlood(std::unique_ptr<BloodCoupling> blood,
+                          std::function<const std::vector<Eigen::Vector3d>&()> wall)
+{
+  blood_ = std::move(blood);
+  wall_ = std::move(wall);
+}
+
+/** Begins a step of the flow of blood where one is due. */
+void Simulation::exchangeBlood(std::uint64_t vessel_version)
+{
+  if (!blood_ || !blood_->isDue(steps_))
+    return;
+  PhaseTimer::Scope scope(timer_, Phase::kBlood);
+  blood_->exchange(state_, discretisation(), treatments_, wall_(), vessel_version);
+}
+
 void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
 {
   if (commands.size() != hands_.size())
@@ -455,6 +471,7 @@ void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
   report_ = rod::StepReport();
   std::uint32_t pass = 0;
   const std::uint64_t vessel_version = beginTreatments();
+  exchangeBlood(vessel_version);
   for (int k = 1; k <= substeps; ++k)
   {
     rod::StepInput input;
@@ -467,6 +484,8 @@ void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
     setHandles(parts_, stale, dt, input);
     input.distal = stale ? state_.distal : rod::between(from, to, static_cast<double>(k) / substeps);
     applyLoads(input);
+    if (blood_)
+      blood_->addLoads(state_, discretisation(), input);
     const std::vector<contact::Roller> rollers = rollers_ ? rollers_->rollers() : std::vector<contact::Roller>();
     const bool rollers_move = placeRollers(time() + k * dt);
     if (rollers_move)

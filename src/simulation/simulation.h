@@ -18,6 +18,7 @@
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
 #include "simulation/balloon_treatments.h"
+#include "simulation/blood_coupling.h"
 #include "simulation/handle.h"
 
 namespace endovascular_sim::simulation
@@ -107,6 +108,15 @@ public:
   /** True for a wire behind an introducer; false for one that is simulated as a whole. */
   bool hasIntroducer() const { return scene_.introducer; }
 
+  /** Couples the simulation with the flow of blood; before the first step.
+   *  @param wall vertices of the wall in which contact is detected; called at steps of the flow */
+  void setBlood(std::unique_ptr<BloodCoupling> blood, std::function<const std::vector<Eigen::Vector3d>&()> wall);
+
+  /** Coupling with the flow of blood; null in a scene without the key `flow`. @{ */
+  const BloodCoupling* blood() const { return blood_.get(); }
+  BloodCoupling* blood() { return blood_.get(); }
+  /** @} */
+
   /** Stops adaptive sampling: the nodes keep their positions along the wire. */
   void keepSampling() { samples_ = false; }
 
@@ -163,6 +173,7 @@ private:
   void resample();
   std::uint64_t beginTreatments();
   void endTreatments();
+  void exchangeBlood(std::uint64_t vessel_version);
   void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
   void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);
@@ -190,6 +201,8 @@ private:
   std::vector<double> hand_forces_, hand_positions_;
   rod::HemostaticValve valve_;
   BalloonTreatments treatments_;
+  std::unique_ptr<BloodCoupling> blood_;  ///< null: blood does not flow
+  std::function<const std::vector<Eigen::Vector3d>&()> wall_;
   std::vector<double> pressures_;  ///< commanded pressure of every instrument [Pa]
   PhaseTimer timer_;
   Hash64 trajectory_;

@@ -8,6 +8,7 @@
 #include "common/archive_checks.h"
 #include "common/error.h"
 #include "common/version.h"
+#include "scene/model/portable_text.h"
 #include "simulation/saved_state.h"
 #include "simulation/simulation.h"
 #include "simulation/stepper_factory.h"
@@ -88,8 +89,10 @@ std::string checked(std::string bytes, const std::string& origin)
   return bytes;
 }
 
-/** @param of_same_scene false: accepts the state of another scene */
-void checkHeader(const Header& header, const Header& wanted, const std::string& origin, bool of_same_scene)
+/** @param former_hash of the scene, as states of former versions hold it
+ *  @param of_same_scene false: accepts the state of another scene */
+void checkHeader(const Header& header, const Header& wanted, std::uint64_t former_hash, const std::string& origin,
+                 bool of_same_scene)
 {
   if (header.format != kFormat)
     throw InputError(origin, "",
@@ -101,7 +104,7 @@ void checkHeader(const Header& header, const Header& wanted, const std::string& 
                      "was saved with physics number " + std::to_string(header.physics) + " by endovascular_sim " +
                          header.writer + "; this version has number " + std::to_string(wanted.physics) +
                          "; load it with the version that wrote it, or save it again");
-  if (of_same_scene && header.scene_hash != wanted.scene_hash)
+  if (of_same_scene && header.scene_hash != wanted.scene_hash && header.scene_hash != former_hash)
     throw InputError(origin, "",
                      "was saved in another scene, or with other values (hash " + Hash64::toHex(header.scene_hash) +
                          ", this one's is " + Hash64::toHex(wanted.scene_hash) +
@@ -140,6 +143,8 @@ void Simulation::archive(Archive& archive)
   }
   stepper_->archive(archive, state_);
   archive(treatments_);
+  if (blood_)
+    archive(*blood_);
 }
 
 /** Checks the state against the wire and the scene. A distal end far from its motion would take very many sub-steps. */
@@ -205,7 +210,7 @@ void Simulation::read(std::istream& stream, std::uint64_t vessel_hash, const std
   try
   {
     in(header);
-    checkHeader(header, wanted, origin, of_same_scene);
+    checkHeader(header, wanted, scene::formerMotionHash(scene_), origin, of_same_scene);
     stepper_ = makeStepper(scene_, entry_, initial_nodes_);  // resets all members that are not saved
     if (observer_ != nullptr)
       stepper_->setObserver(observer_);

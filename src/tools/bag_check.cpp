@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "nodes/player/recorded_texts.h"
 #include "nodes/session/bag_survey.h"
+#include "nodes/session/session_files.h"
 #include "tools/command_line.h"
 
 namespace
@@ -24,6 +26,8 @@ struct Options
   std::string repaired;
   bool json = false;
   bool quick = false;
+  bool scene = false;
+  bool urdf = false;
 };
 
 int codeOf(const nodes::BagSurvey& survey)
@@ -39,11 +43,21 @@ int worse(int a, int b)
   return a == kUseless || b == kUseless ? kUseless : std::max(a, b);
 }
 
+/** Prints the text of the scene, or of the robot's URDF; nothing for a bag without it. */
+int printText(const Options& options)
+{
+  const nodes::RecordedTexts texts = nodes::recordedTexts(nodes::bagsOf(options.bags).front());
+  std::cout << (options.scene ? texts.scene : texts.urdf);
+  return 0;
+}
+
 int check(const Options& options)
 {
+  if (options.scene || options.urdf)
+    return printText(options);
   int code = 0;
   nlohmann::ordered_json surveys = nlohmann::ordered_json::array();
-  for (const std::string& bag : options.bags)
+  for (const std::string& bag : nodes::bagsOf(options.bags))
   {
     const nodes::BagSurvey survey = nodes::surveyBag(bag, !options.quick);
     code = worse(code, codeOf(survey));
@@ -71,14 +85,18 @@ int main(int argc, char** argv)
       "Examines bags of sessions: version, steps, gaps, damages, and what can be done with each: show it, make its "
       "reports, compute it again, and up to which step.",
       "Exit code: 0 every bag is complete; 3 a bag is of use in part; 1 a bag is of no use; 2 wrong arguments.");
-  line.argument("BAG", options.bags, "bags of the session node; their index is not needed");
+  line.argument("BAG", options.bags, "bags of the session node, or folders with their results; an index is not needed");
   line.flag("--json", options.json, "prints a list of objects instead, with all topics and their types");
   line.flag("--quick", options.quick, "does not make the scene and the vessel of a bag, as a replay would");
   line.option("--repair", options.repaired, "FILE",
               "writes the readable messages of a single bag into a new file, with an index");
+  line.flag("--scene", options.scene, "prints the scene of the first bag instead; nothing if the bag holds none");
+  line.flag("--urdf", options.urdf, "prints the URDF of the first bag's robot instead; nothing if it holds none");
   line.require(
       [&options]() -> std::string
       {
+        if (options.scene && options.urdf)
+          return "--scene and --urdf exclude each other";
         if (options.repaired.empty())
           return "";
         if (options.bags.size() != 1)

@@ -63,6 +63,8 @@ void checkVessel(const scene::Scene& scene)
   const vessel::Vessel& vessel = *world->vessel();
   if (scene.fluoroscopy)
     tools::printNotes("patient", world->patient().notes);
+  if (scene.flow)
+    tools::printNotes("flow", world->flow().body().remarks());
   const session::Session start(world);  // checks the procedure and the instruments
   std::cerr << "scene_check: " << scene::facetsAround(vessel.mesh).text(scene.vessel->wall) << "\n";
   std::cerr << "scene_check: " << scene::expectedSamplingError(scene, vessel, world->entry()).text() << "\n";

@@ -391,6 +391,8 @@ std::shared_ptr<const session::World> worldOf(const Options& options)
     throw InputError(options.scene, "solver.scheme", "'" + scene.solver.scheme + "' has no energy audit; use kkt");
   std::shared_ptr<const session::World> world =
       session::World::make(std::move(scene), options.quiet ? ProgressReport() : progressOnErrorStream(), printVessel);
+  if (world->scene().flow)
+    tools::printNotes("flow", world->flow().body().remarks());
   if (world->vessel() != nullptr && options.records("nodes"))
     vessel::writeObj(world->vessel()->mesh, options.out + "/vessel.obj");
   return world;

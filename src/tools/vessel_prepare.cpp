@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/progress.h"
 #include "common/quantities.h"
+#include "scene/file_search.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/anatomy/anatomy_mesh.h"
@@ -149,8 +150,9 @@ int prepare(Options a)
     tools::printWarnings("vessel_prepare", {a.out + ": " + wall.text()});
   std::cout << made.report.text(made.centreline) << "wrote " << a.out << ", " << stem << "_centreline.yaml, " << stem
             << "_report.json\n"
-            << "to use the vessel: simulate config/scenes/mesh.yaml --set vessel.mesh="
-            << std::filesystem::absolute(out).string() << " --set vessel.unit=1\n";
+            << "to use the vessel: rosrun endovascular_sim simulate "
+            << std::filesystem::absolute(scene::configFolder() + "/scenes/mesh.yaml").string()
+            << " --set vessel.mesh=" << std::filesystem::absolute(out).string() << " --set vessel.unit=1\n";
   return made.report.withinDistance() ? 0 : 3;
 }
 

@@ -263,6 +263,16 @@ bool takeAgain(const PlacedName& name, const DrawnBranch& drawn, const PictureVi
 
 }  // namespace
 
+Rectangle PlacedName::boxInside(const PictureView& view) const
+{
+  const Rectangle at = box(view);
+  const Eigen::Vector2d half = 0.5 * Eigen::Vector2d(view.width, view.height);
+  Eigen::Vector2d shift = (-half - at.low).cwiseMax(0.0) - (at.high - half).cwiseMax(0.0);
+  if (at.low.x() + shift.x() < view.legend_width - half.x())
+    shift.y() = std::max(shift.y(), view.legend_height - half.y() - at.low.y());
+  return {at.low + shift, at.high + shift};
+}
+
 std::vector<PlacedName> placeNames(const std::vector<BranchToName>& branches, const PictureView& view,
                                    const std::vector<PlacedName>& before)
 {
@@ -273,7 +283,12 @@ std::vector<PlacedName> placeNames(const std::vector<BranchToName>& branches, co
   std::vector<std::size_t> order(drawn.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return drawn[a].length() > drawn[b].length(); });
+                   [&](std::size_t a, std::size_t b)
+                   {
+                     if (branches[a].comes_first != branches[b].comes_first)
+                       return branches[a].comes_first;
+                     return drawn[a].length() > drawn[b].length();
+                   });
   PlaceSearch search(drawn, view);
   std::vector<PlacedName> names;
   for (const std::size_t index : order)

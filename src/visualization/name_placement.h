@@ -54,6 +54,7 @@ struct BranchToName
   Eigen::Vector2d size = Eigen::Vector2d::Zero();  ///< of the name in the picture [pixels]
   std::vector<Eigen::Vector3d> points;             ///< centreline, finite; without points the branch is not drawn [m]
   std::vector<double> radii;                       ///< at the points [m]
+  bool comes_first = false;                        ///< true: its name has a place before those of all others
 };
 
 /** Name in the picture. A leader joins it to its branch. */
@@ -66,6 +67,8 @@ struct PlacedName
 
   /** Place of the name in a view. @param view its eye is before the end of the leader */
   Rectangle box(const PictureView& view) const { return Rectangle::around(view.project(end) + offset, size); }
+  /** Place of the name in a view, moved into the picture and out of the legends where these would cut it. */
+  Rectangle boxInside(const PictureView& view) const;
 };
 
 /** Places the names of branches in the picture:
@@ -74,7 +77,8 @@ struct PlacedName
  *  - names overlap neither each other, nor leaders, nor the legends, and leaders do not cross.
  *
  *  A name is missing where no place satisfies this. It is also missing beside a branch that is shorter in the picture
- *  than the name is high. The longest branches in the picture come first.
+ *  than the name is high. Branches that come first are followed by
+ *  the longest ones in the picture.
  *  @param before names of an earlier view; a name keeps its offset where that is still possible */
 std::vector<PlacedName> placeNames(const std::vector<BranchToName>& branches, const PictureView& view,
                                    const std::vector<PlacedName>& before = {});

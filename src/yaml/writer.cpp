@@ -28,6 +28,8 @@ std::string formatted(const double* values, std::size_t size)
   return text + "]";
 }
 
+}  // namespace
+
 std::string quoted(const std::string& value)
 {
   static const char* digits = "0123456789abcdef";
@@ -44,8 +46,6 @@ std::string quoted(const std::string& value)
   }
   return text + "\"";
 }
-
-}  // namespace
 
 void Writer::line(const std::string& key, const std::string& value)
 {

@@ -7,6 +7,9 @@
 namespace endovascular_sim::yaml
 {
 
+/** Text in double quotes of YAML. */
+std::string quoted(const std::string& value);
+
 /** Writer of fields as canonical YAML: schema order, all values explicit, numbers in the shortest form that reads back
  *  to the same bits. */
 class Writer : public Fields

@@ -103,6 +103,8 @@ rod::HandForceParts recomputedParts(PushedWire& wire)
   {
     parts.bending += slide[i].dot(gradient[i] - state.wall_force[i] + guide[i]);
     parts.friction -= slide[i].dot(rod::frictionForce(state, i, rod::StepperSettings().friction_slip));
+    if (!wire.input.drags.empty())
+      parts.drag -= slide[i].dot(wire.input.drags[i].coefficient * (wire.input.drags[i].stream - state.velocity[i]));
     if (i > last_held)
       parts.inertia += rod.mass[i] * slide[i].dot(state.velocity[i] - wire.before.velocity[i]) / kDt;
   }
@@ -145,6 +147,29 @@ TEST(HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInABentTube)
   EXPECT_LT(std::abs(difference), 0.01 * whole);
   EXPECT_LT(std::abs(bending), 0.01 * whole);
   EXPECT_LT(std::abs(friction), 0.01 * whole);
+}
+
+TEST(HandForceParts, RecomputedFromTheStepAddUpToTheHandForceInAStream)
+{
+  PushedWire wire(0.16, 161, rod::Environment(), 0.06);
+  wire.input.drags =
+      rod::uniformStream(wire.stepper.discretisation(), 0.5 * Eigen::Matrix3d::Identity(), Vector3d(-0.1, 0.5, 0.0));
+  double whole = 0.0, difference = 0.0, bending = 0.0, dragged = 0.0;
+  for (int k = 0; k < 400; ++k)
+  {
+    wire.push(0.02e-3, nullptr);
+    const rod::HandForceParts recomputed = recomputedParts(wire);
+    const rod::HandForceParts& parts = wire.state.hand_parts;
+    EXPECT_NEAR(parts.sum(), wire.state.hand_force, 1e-12);
+    whole += std::abs(parts.bending) + std::abs(parts.drag);
+    difference += std::abs(recomputed.sum() - wire.state.hand_force);
+    bending += std::abs(recomputed.bending - parts.bending);
+    dragged += std::abs(recomputed.drag - parts.drag);
+  }
+  EXPECT_GT(whole / 400, 2e-3);
+  EXPECT_LT(difference, 0.01 * whole);
+  EXPECT_LT(bending, 0.01 * whole);
+  EXPECT_LT(dragged, 0.01 * whole);
 }
 
 // Exact: ½EIκ² while the tip is in the bend.

@@ -191,7 +191,7 @@ for name, kind, stored in (("mask", "B", [int(x) for x in inside]), ("mask_255",
                            ("float_mask", "f", [float(x) for x in inside])):
     files.write_nifti(here(name + ".nii"), kind=kind, stored=stored)
     for modality in ((), ("--modality", "ct"), ("--modality", "other")):
-        refuse(name, here(name + ".nii"), "is a label map", "STL", "3D Slicer", "vessel_prepare", options=modality)
+        refuse(name, here(name + ".nii"), "is a label map", "it holds the label(s)", "vessel_segment --label N", options=modality)
         expect(name, "16 bit" not in run(name, here(name + ".nii"), *modality)[1].stderr, "advice on 16 bit")
 
 # a CT that is stored without its intercept: air at 0, tissue at 1064, a vessel of 1374

@@ -129,7 +129,7 @@ TEST_F(Control, D_AResetBeginsAtTheFirstStep)
   ASSERT_TRUE(client_->trigger("simulation/pause").success);
   const std_srvs::Trigger::Response reset = client_->trigger("simulation/reset");
   ASSERT_TRUE(reset.success) << reset.message;
-  EXPECT_NE(reset.message.find("run 2 begins at step 0"), std::string::npos) << reset.message;
+  EXPECT_NE(reset.message.find("run 2 begins at 0.0 s"), std::string::npos) << reset.message;
   ASSERT_TRUE(client_->trigger("simulation/resume").success);
   EXPECT_TRUE(waitForSteps(300));
   EXPECT_LT(listener_->last().insertion.at(0), 0.03) << "the script begins again";

@@ -168,7 +168,9 @@ std::map<std::string, std::unique_ptr<SessionProcess>> RecordedSession::sessions
 TEST_F(RecordedSession, OfATreatmentHasTheMetricsOfTheOfflineSimulation)
 {
   const Json graph = metricsOf("treatment");
-  expectErrors("treatment", graph, {"above_rated", "at_risk", "balloon ahead of its wire", "burst", "over_expanded"});
+  expectErrors(
+      "treatment", graph,
+      {"above_rated", "at_risk", "balloon ahead of its wire", "burst", "over_expanded", "sustained force of a tip"});
   expectEqualMetrics("treatment", graph);
 }
 

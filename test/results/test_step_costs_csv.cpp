@@ -45,7 +45,7 @@ TEST(StepCostsFile, HasOneRowPerStepWithAllColumns)
   EXPECT_EQ(line,
             "step,us,solves,factorisations,truncations,hit_iteration_limit,contacts,detections,collision_us,assembly_"
             "us,solve_us,"
-            "sampling_us,twist_us,contact_us,friction_us,layers_us,forces_us,balloon_us,control_us");
+            "sampling_us,twist_us,contact_us,friction_us,layers_us,forces_us,balloon_us,blood_us,control_us");
   const std::size_t columns = cells(line).size();
   for (int k = 1; k <= 3; ++k)
   {

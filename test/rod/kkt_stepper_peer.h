@@ -20,7 +20,7 @@ struct KktStepperPeer
     const TwistAction twist = stepper.layers_->relaxTwist(state, input, {}, unused);
     KktSystem& system = stepper.system_;
     system.reset(state.first_node, stepper.model_.rod.nodes());
-    stepper.assembly_.addAllBending({state, state.position, twist, nullptr, input.forces, 1.0, true});
+    stepper.assembly_.addAllBending({state, state.position, twist, nullptr, input.forces, input.drags, 1.0, true});
     std::vector<Eigen::Vector3d> gradient(state.position.size(), Eigen::Vector3d::Zero());
     for (int i = system.first; i < stepper.model_.rod.nodes(); ++i)
       for (int axis = 0; axis < 3; ++axis)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -68,6 +69,26 @@ inline double guideEnergy(const Discretisation& rod, const Boundary& boundary, c
   IntroducerGuide(boundary).forEachEdge(rod, state,
                                         [&sum](int /*edge*/, const GuidedEdge& edge) { sum += edge.energy; });
   return sum;
+}
+
+/** Drag of a uniform stream on all nodes, the same per length.
+ *  @param per_length [N·s/m²]
+ *  @param stream velocity of the fluid [m/s] */
+inline std::vector<NodalDrag> uniformStream(const Discretisation& rod, const Eigen::Matrix3d& per_length,
+                                            const Eigen::Vector3d& stream)
+{
+  std::vector<NodalDrag> drags;
+  for (int i = 0; i < rod.nodes(); ++i)
+    drags.push_back({i, rod.cell_length[i] * per_length, stream});
+  return drags;
+}
+
+/** Advances a wire without walls by one step. */
+inline StepReport advanceFreely(Stepper& stepper, State& state, const StepInput& input, double dt)
+{
+  PhaseTimer timer;
+  std::uint32_t pass = 0;
+  return stepper.step(state, input, dt, pass, nullptr, timer);
 }
 
 /** Steps until the wire is at rest.

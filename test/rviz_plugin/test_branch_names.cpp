@@ -53,6 +53,17 @@ TEST(BranchNames, BranchesWithGeneratedNamesAndInvalidPointsHaveNone)
   EXPECT_TRUE(branches[3].points.empty());
 }
 
+TEST(BranchNames, TheGoalOfTheStepComesFirst)
+{
+  VesselCentreline message;
+  message.branches = {branch("left_main"), branch("left_circumflex"), branch("")};
+  const std::vector<visualization::BranchToName> branches = branchesToName(message, sizeOf, "left_circumflex");
+  EXPECT_FALSE(branches[0].comes_first);
+  EXPECT_TRUE(branches[1].comes_first);
+  for (const visualization::BranchToName& branch : branchesToName(message, sizeOf))
+    EXPECT_FALSE(branch.comes_first) << "no goal";
+}
+
 TEST(BranchNames, ReachToTheSurroundingsOfATipInThePicture)
 {
   visualization::PictureView view;

@@ -100,6 +100,31 @@ TEST(CameraGuide, ShowsTheWholeVesselInTheOverview)
     }
 }
 
+TEST(CameraGuide, LeavesWhatLegendsCoverFreeInTheOverview)
+{
+  CameraGuide guide(ViewMode::kOverview);
+  const VesselCentreline vessel = helix();
+  guide.setVessel(vessel);
+  for (const double covered : {0.07, 0.2})
+    for (const double aspect : {0.4, 1.8})
+    {
+      CameraPose pose;
+      for (int k = 0; k < 200; ++k)
+        pose = guide.advance({0.0, 0.1, 0.0, covered}, kFrame, aspect, kFieldOfView);
+      const Eigen::Vector3d forward = (pose.focus - pose.eye).normalized();
+      double lowest = 1.0, highest = -1.0;  // in the picture, from -1 to 1
+      for (const geometry_msgs::Point& message : vessel.branches[0].points)
+      {
+        const Eigen::Vector3d point = Eigen::Vector3d(message.x, message.y, message.z) - pose.eye;
+        const double place = point.dot(pose.up) / (point.dot(forward) * std::tan(0.5 * kFieldOfView));
+        lowest = std::min(lowest, place);
+        highest = std::max(highest, place);
+      }
+      EXPECT_GT(lowest, 2.0 * covered - 1.0) << covered << ", " << aspect;
+      EXPECT_LT(highest, 1.0) << covered << ", " << aspect;
+    }
+}
+
 TEST(CameraGuide, FollowsTheTipWithoutRoll)
 {
   CameraGuide guide(ViewMode::kFollowTip);

@@ -56,5 +56,22 @@ TEST(ErrorWatch, NamesEachErrorOfTheMetricsOnce)
   EXPECT_NE(watch.follow(progress), "");
 }
 
+TEST(ErrorWatch, AWrongBranchIsOverWhenTheTipHasLeftItOrTheStepIsDone)
+{
+  ErrorWatch watch;
+  watch.follow(step(1), "aortic arch");
+  EXPECT_FALSE(watch.isOver("aortic arch")) << "no error";
+  watch.follow(step(1, 1), "brachiocephalic");
+  EXPECT_FALSE(watch.isOver("brachiocephalic"));
+  EXPECT_FALSE(watch.isOver("")) << "the tip's branch is unknown";
+  EXPECT_TRUE(watch.isOver("aortic arch"));
+  watch.follow(step(1, 1, ProcedureStep::DONE), "brachiocephalic");
+  EXPECT_TRUE(watch.isOver("brachiocephalic"));
+  SessionProgress progress;
+  progress.errors = 1;
+  watch.follow(progress);
+  EXPECT_FALSE(watch.isOver("aortic arch")) << "a newer error of another kind remains";
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rviz_plugin

@@ -73,6 +73,17 @@ TEST(MotionObstacle, NamesTheLimitAtWhichTheGripSlips)
   EXPECT_EQ(motionObstacle(state, 1, 0.0), "slips at 50 mN·m: its rotation is held; turn back");
 }
 
+TEST(MotionObstacle, AdvisesAgainstTheDirectionOfTheMotion)
+{
+  SessionState state = running();
+  state.operating["wire"].reason =
+      "the grip slips in the insertion: the instrument is held with drive.force_limit, jammed or at a stop; pull back";
+  EXPECT_EQ(motionObstacle(state, 1, -0.02), "slips: it is held; push or twist");
+  EXPECT_EQ(motionObstacle(state, 1, 0.02), "slips: it is held; pull back");
+  state.operating["wire"].reason = "the grip slips in the rotation: the instrument is held with drive.torque_limit";
+  EXPECT_EQ(motionObstacle(state, 1, 0.0), "slips: its rotation is held; turn back");
+}
+
 TEST(MotionObstacle, NamesAPauseAndTheReasonOfTheState)
 {
   SessionState state = running();

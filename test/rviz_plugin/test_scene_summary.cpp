@@ -33,6 +33,9 @@ TEST(SceneSummary, NamesTheInstrumentOfEachStep)
   EXPECT_EQ(scene.steps[2].instrument, "catheter");
   EXPECT_EQ(scene.steps[7].instrument, "stent");
   EXPECT_FALSE(scene.steps[0].hint.empty());
+  EXPECT_EQ(scene.steps[0].goal, "aortic_arch");
+  EXPECT_EQ(scene.steps[3].goal, "") << "it leads out";
+  EXPECT_EQ(scene.steps[7].goal, "left_anterior_descending") << "of the balloon";
 }
 
 TEST(SceneSummary, CountsAnExchangeAsTwoStepsAsTheProcedureDoes)

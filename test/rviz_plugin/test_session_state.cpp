@@ -44,6 +44,15 @@ TEST(PanelTexts, ShowTheChosenInstrument)
   EXPECT_EQ(panelTexts(running(), 1).pressure, "8.0 atm");
 }
 
+TEST(PanelTexts, SayThatATipIsOutside)
+{
+  SessionState state = running();
+  state.wire.insertion[0] = -0.027;
+  EXPECT_EQ(panelTexts(state, 0).insertion, "27 mm outside");
+  state.wire.insertion[0] = -1e-6;
+  EXPECT_EQ(panelTexts(state, 0).insertion, "0.0 mm");
+}
+
 TEST(PanelTexts, KeepThePeakOfTheForce)
 {
   SessionState state = running();
@@ -86,8 +95,11 @@ TEST(PanelTexts, NameAPauseAndItsReason)
 {
   SessionState state = running();
   state.operating["wire"] = {drive::OperatingState::kPaused, true, false, "the contact node does not respond", 0};
-  EXPECT_EQ(panelTexts(state, 0).status, "PAUSED: the contact node does not respond");
+  EXPECT_EQ(panelTexts(state, 0).status, "paused");
+  EXPECT_EQ(panelTexts(state, 0).reason, "the contact node does not respond");
   EXPECT_EQ(panelTexts(state, 1).status, "running");
+  state.operating["wire"] = {drive::OperatingState::kEnabled, true, false, "the grip slips in the insertion", 0};
+  EXPECT_EQ(panelTexts(state, 0).status, "running") << "a word that fits beside the buttons";
   state.operating.clear();
   state.wire_age = 3.0;
   EXPECT_EQ(panelTexts(state, 0).status, "no state of the simulation");
@@ -100,8 +112,10 @@ TEST(PanelTexts, NameTheProcedureStepAndItsOutcome)
   state.has_step = true;
   state.step.begun = 3;
   state.step.phase = "access";
+  state.step.name = "advance soft_wire until its tip is in left_main";
+  EXPECT_EQ(panelTexts(state, 0).step, "3: access, advance soft wire until its tip is in left main")
+      << "as the picture";
   state.step.name = "advance the wire";
-  EXPECT_EQ(panelTexts(state, 0).step, "3: access, advance the wire");
   state.step.outcome = ProcedureStep::FAILED;
   state.step.failure = "no progress";
   EXPECT_EQ(panelTexts(state, 0).step, "3: access, advance the wire (failed: no progress)");
@@ -111,7 +125,7 @@ TEST(PanelTexts, ShowTheHintOfTheStepAndTheEndOfALesson)
 {
   SessionState state;
   EXPECT_EQ(panelTexts(state, 0).hint, "");
-  state.scene.steps = {{"wire", "Push the wire to the fork."}, {"wire", "Push the wire."}};
+  state.scene.steps = {{"wire", "Push the wire to the fork.", ""}, {"wire", "Push the wire.", ""}};
   EXPECT_EQ(panelTexts(state, 0).hint, "Push the wire to the fork.") << "the lesson begins with the first motion";
   EXPECT_EQ(panelTexts(state, 0).step, "1 of 2: begins with a motion");
   EXPECT_EQ(state.presentStep(), 0U);
@@ -128,7 +142,40 @@ TEST(PanelTexts, ShowTheHintOfTheStepAndTheEndOfALesson)
   EXPECT_EQ(panelTexts(state, 0).hint, "") << "the next step begins at once";
   state.step.step_of_procedure = 4;
   state.is_recording = true;
-  EXPECT_EQ(panelTexts(state, 0).hint, "All steps are done. Stop the recording for the result.");
+  EXPECT_EQ(panelTexts(state, 0).hint, "All steps are done.");
+}
+
+TEST(StateOfARecording, IsThatOfTheShownTime)
+{
+  SessionState state = running();
+  state.peak_force = {9.0, 9.0};
+  state.c_arm_view = "AP";
+  state.is_recording = true;
+  state.has_step = true;
+  state.step.begin = 15.0;
+  PlayerState player;
+  player.time = 12.0;
+  player.peak_hand_force = {2.5, 0.0};
+  player.c_arm_view = "LAO 40";
+  for (const double time : {3.0, 10.0, 14.0})
+  {
+    PlayerChapter error;
+    error.kind = PlayerChapter::ERROR;
+    error.time = time;
+    error.name = "at " + std::to_string(static_cast<int>(time)) + " s";
+    player.chapters.push_back(error);
+  }
+  state.player = player;
+  takeOverPlayer(state);
+  EXPECT_EQ(state.peak_force, player.peak_hand_force);
+  EXPECT_EQ(state.c_arm_view, "LAO 40");
+  EXPECT_EQ(state.last_error, "Error: at 10 s");
+  EXPECT_NEAR(state.error_age, 2.0, 1e-12);
+  EXPECT_FALSE(state.has_step) << "it begins later";
+  EXPECT_FALSE(state.is_recording);
+  state.player->time = 1.0;
+  takeOverPlayer(state);
+  EXPECT_EQ(state.last_error, "");
 }
 
 }  // namespace

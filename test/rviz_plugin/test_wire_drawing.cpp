@@ -85,6 +85,26 @@ TEST(WireDrawing, DrawsNothingForInvalidMessagesAndNamesTheReason)
   }
 }
 
+TEST(WireDrawing, HasTheScaleOfTheShownTimeOfARecording)
+{
+  WireDrawing drawing;
+  visualization::WireStyle style;
+  style.full_force = 0.0;
+  RodStateVisual message = curvedWire(50);
+  message.time = 5.0;
+  message.contact_force[7].y = 0.3;
+  drawing.update(message, style);
+  drawing.restartScale(1.7);
+  drawing.update(message, style);
+  EXPECT_DOUBLE_EQ(drawing.fullForce(), 2.0);
+  drawing.restartScale(0.08);  // arrives before the message of an earlier time
+  drawing.update(message, style);
+  message.time = 2.0;
+  message.contact_force[7].y = 0.06;
+  drawing.update(message, style);
+  EXPECT_DOUBLE_EQ(drawing.fullForce(), 0.1);
+}
+
 TEST(WireDrawing, FollowsTheLargestForceAndBeginsAnewAfterAReset)
 {
   WireDrawing drawing;

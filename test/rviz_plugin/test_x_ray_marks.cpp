@@ -89,5 +89,20 @@ TEST(XRayMarks, FluoroscopyTimeCountsWhileImagesCome)
   EXPECT_EQ(time.seconds(), 0.0);
 }
 
+TEST(XRayMarks, FluoroscopyTimeBeginsAnewWithARun)
+{
+  FluoroscopyTime time;
+  for (int k = 0; k <= 10; ++k)
+  {
+    time.addState(5.0 + 0.1 * k);
+    time.addImage(1000.0 + 0.1 * k);  // wall time, which goes on
+  }
+  EXPECT_NEAR(time.seconds(), 1.0, 1e-9);
+  time.addState(5.5);  // a step of the procedure again
+  EXPECT_EQ(time.seconds(), 0.0);
+  time.addImage(1001.1);
+  EXPECT_NEAR(time.seconds(), 0.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rviz_plugin

@@ -32,7 +32,7 @@ ROUND = 40  # messages between two examinations
 
 # Graphs that have every node and every kind of topic together: scene, arguments of sim.launch.
 GRAPHS = [("test/data/every_node.yaml", ["robot:=true", "device:={folder}/none", "baud:=250000"]),
-          ("test/data/procedure_with_balloon.yaml", ["pace:=free", "overrides:=duration=3600"])]
+          ("test/data/procedure_with_balloon.yaml", ["pace:=free", "overrides:=duration=3600 flow=adult"])]
 NOT_OURS = ("/rosout", "/robot_state_publisher")
 
 

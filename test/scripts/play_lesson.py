@@ -3,7 +3,6 @@
 reset, a step again. Then it follows the page to the end. Every action is checked on topics.
 
 usage: play_lesson.py FOLDER REPOSITORY LESSON [SCREEN]"""
-import glob
 import json
 import os
 import sys
@@ -14,7 +13,8 @@ from trainee import Trainee
 
 # Instruments in the order of the scene, and the one of the first step.
 LESSONS = {"lesson_bifurcation": (["wire"], 0), "lesson_catheter_needs_wire": (["wire", "catheter"], 1),
-           "lesson_lad_stent": (["soft_wire", "stent", "wire", "catheter"], 2)}
+           "lesson_lad_stent": (["soft_wire", "stent", "wire", "catheter"], 2),
+           "lesson_pressure": (["pressure_wire", "stent", "wire", "catheter"], 2)}
 
 
 def passed(text):
@@ -100,6 +100,13 @@ def repeat_the_step(session, trainee, driven):
     passed("step %d again, in run %d" % (number, session.progress.run))
 
 
+def end_by_the_key(session):
+    """Ends the launch by the key that the page names."""
+    run("xdotool", "key", "ctrl+q")
+    session.launch.wait(timeout=90)
+    passed("Ctrl+Q ends the lesson")
+
+
 def main():
     folder, repository, lesson = sys.argv[1:4]
     screen = sys.argv[4] if len(sys.argv) > 4 else "1280x800"
@@ -121,10 +128,9 @@ def main():
         trainee.do_steps()
         session.picture(lesson)
         run_now = session.progress.run
-        session.click("record")
         page = folder + "/results/run_%d/metrics.json" % run_now
-        session.wait(60, lambda: glob.glob(page), "the end of the recording")
-        time.sleep(2.0)
+        session.wait(60, lambda: session.verdict is not None and session.verdict.run == run_now, "the verdict, without a click")
+        time.sleep(3.0)  # the dialog opens
         session.picture(lesson + "_result")
         with open(page, encoding="utf-8") as file:
             result = json.load(file)["lesson"]
@@ -132,10 +138,12 @@ def main():
             passed("%s: %.3g of %.3g %s, %s" % (mark["mark"], mark["value"], mark["limit"], mark["unit"],
                                                 "passed" if mark["passed"] else "not passed"))
         assert result["marks"][0]["passed"], "steps are missing"
+        assert list(session.verdict.value) == [mark["value"] for mark in result["marks"]], "the verdict is not that of the page"
         for name in (lesson, lesson + "_result"):
             path = os.path.join(os.environ.get("ENDOVASCULAR_PICTURES", folder), name + ".png")
             colours = int(run("identify", "-format", "%k", path))
             assert colours > 500, "%s has %d colours: no picture" % (path, colours)
+        end_by_the_key(session)
 
 
 if __name__ == "__main__":

@@ -9,15 +9,16 @@ import subprocess
 import time
 
 import rospy
-from endovascular_sim.msg import ProcedureStep, RodStateVisual, SessionProgress
+from endovascular_sim.msg import ProcedureStep, RodStateVisual, SessionProgress, SessionVerdict
 
 PLACES = {"work": {"start": (44, 100), "pause": (129, 100), "reset": (213, 100), "record": (297, 100),
                    "push": (107, 181), "pull": (275, 181), "twist_left": (107, 216), "twist_right": (275, 216),
                    "overview": (86, 360), "tip": (201, 360), "in_vessel": (288, 360), "focus": (250, 264)},
-          # Of both widths of the panel, with and without a balloon; the last two of an instrument with a balloon.
+          # The last two are those of an instrument with a balloon.
           "lesson": {"start": (44, 38), "pause": (127, 38), "reset": (230, 38), "record": (327, 38), "repeat_step": (327, 66),
                      "push": (85, 127), "pull": (251, 127), "twist_left": (85, 162), "twist_right": (251, 162), "focus": (90, 210),
-                     "pressure": (30, 273), "set_pressure": (135, 273)}}
+                     "pressure": (30, 273), "set_pressure": (115, 273), "deflate": (293, 273),
+                     "adenosine": (44, 474)}}  # where blood flows
 
 
 def run(*command, seconds=20, **options):
@@ -33,7 +34,7 @@ class RvizSession:
     def __init__(self, folder, launch, *arguments, screen="1280x800", layout=None):
         self.places = PLACES[layout or "work"]
         self.folder, self.results = folder, folder + "/results"
-        self.state = self.step = self.progress = None
+        self.state = self.step = self.progress = self.verdict = None
         with socket.socket() as free:
             free.bind(("localhost", 0))
             port = free.getsockname()[1]
@@ -59,6 +60,7 @@ class RvizSession:
             rospy.init_node("test_of_rviz", anonymous=True, disable_signals=True)
             rospy.Subscriber("rod/state_visual", RodStateVisual, lambda message: setattr(self, "state", message), queue_size=1)
             rospy.Subscriber("procedure/step", ProcedureStep, lambda message: setattr(self, "step", message), queue_size=1)
+            rospy.Subscriber("session/verdict", SessionVerdict, lambda message: setattr(self, "verdict", message), queue_size=1)
             rospy.Subscriber("session/progress", SessionProgress, lambda message: setattr(self, "progress", message), queue_size=1)
             self.wait(90, lambda: self.state is not None, "the first state")
             self.wait(90, lambda: run("xdotool", "search", "--onlyvisible", "--class", "rviz", seconds=5).strip(), "the window")
@@ -139,7 +141,7 @@ class RvizSession:
         """Types the pressure of the chosen balloon."""
         self.mouse("pressure", "click", "--repeat", "3", "1")
         run("xdotool", "key", "ctrl+a")
-        run("xdotool", "type", "%.1f" % atmospheres)
+        run("xdotool", "type", "--", "%.1f" % atmospheres)
         run("xdotool", "key", "Tab")
         self.click("set_pressure")
         self.click("focus")

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Every tool has --help and --version, and ends with exit code 2 and a hint to --help for an unknown option.
+# Runs beside other tests.
 set -u
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
@@ -24,6 +25,8 @@ lines() { # lines PROGRAM [COMMAND]
 }
 for source in "$repository"/src/tools/*.cpp; do lines "$(basename "${source%.cpp}")"; done
 lines plots
+lines bag_export
+lines expert_recording
 for command in $commands; do lines plots "$command"; done
 scene=$repository/config/scenes/straight_wire.yaml
 check 2 "unknown argument '--ouf'" simulate "$scene" --ouf /tmp

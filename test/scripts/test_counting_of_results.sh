@@ -1,5 +1,6 @@
 #!/bin/bash
 # The last line of the summary counts passed, failed and skipped tests; the exit code agrees with it.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 count="$repository/catkin_ws/lib/test_results.py"

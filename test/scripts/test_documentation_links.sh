@@ -2,6 +2,7 @@
 # Every relative link of the documentation names an existing file and heading. Every page can be reached from docs/index.md.
 # Every path of the repository in backticks exists; NAME, TARGET and the like stand for any name.
 # The pages that show C++ programs quote those of test/install/plain_cmake, which are compiled and run.
+# Runs beside other tests.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'

@@ -2,6 +2,7 @@
 # The energy audit of every shipped scene is within over its first seconds, that of `catheter` with half its time step; so is that of two
 # cycles of push, pull and turn in the anatomy of the demo. Scenes that wait for commands are left out: they are at rest. So are those whose mesh is not in
 # ENDOVASCULAR_DATA_DIR.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 failed=0

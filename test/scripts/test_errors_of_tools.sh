@@ -1,5 +1,6 @@
 #!/bin/bash
 # Every tool that reads or writes a file names the file, the reason and a remedy when that fails, and ends with an error code.
+# Runs beside other tests.
 set -u
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}
@@ -30,6 +31,8 @@ for bad in "$missing" "$file" "$work/empty" "$work/folder"; do
   check "$bad" 'give|line|file|require|expected' scene_check "$bad"
   check "$bad" 'give|line|file|require|expected' procedure_study "$bad" --out "$work/out"
   check "$bad" 'give|file|damaged|bag' replay "$bad"
+  check "$bad" 'give|file|damaged|bag' replay "$bad" --out "$work/made" --no-plots
+  check "$bad" 'give|line|file|require|expected' scripted_recording "$bad" --out "$work/recorded"
   check "$bad" 'give|file|mesh' vessel_prepare "$bad" --unit 1 --out "$work/out.obj"
   check "$bad" 'give|file|state' simulate "$scene" --out "$work/out" --seconds 0.01 --no-plots --quiet --from-state "$bad"
 done

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Both commands print their help from any current folder and refuse unknown options.
+# Runs beside other tests.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 cd /

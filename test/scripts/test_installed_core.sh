@@ -1,6 +1,7 @@
 #!/bin/bash
 # An installation is complete and can be moved. The projects of test/install are built against it: all compute the
 # trajectories of `simulate`, and the plain CMake programs link no ROS library. The catkin project also builds in the devel space.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 build=${ENDOVASCULAR_BUILD_DIR:-$repository/catkin_ws/build}
@@ -77,7 +78,7 @@ for program in "$installed"/lib/endovascular_sim/*; do
   uses=no
   if ldd "$program" | grep -q libroscpp; then uses=yes; fi
   case "$name" in
-    contact|fluoroscopy|haptic_device|robot|rod_dynamics|session|vessel_server|visualization|bag_check|replay|device_simulator|push_to_force) wanted=yes ;;
+    contact|expert|fluoroscopy|haptic_device|hemodynamics|player|robot|rod_dynamics|session|vessel_server|visualization|bag_check|replay|scripted_recording|device_simulator|push_to_force) wanted=yes ;;
     *) wanted=no ;;
   esac
   [ $uses = $wanted ] || { echo "$name links ROS: $uses, expected: $wanted"; exit 1; }

@@ -2,6 +2,7 @@
 # No include of src runs upwards or in a circle between folders: each points to its own folder or to one earlier in the
 # list of docs/ARCHITECTURE.md, section "Layers"; cmake/layers.cmake agrees. Only nodes, tools and rviz_plugin include ROS.
 # python/core includes neither ROS nor folders above session.
+# Runs beside other tests.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'

@@ -1,5 +1,6 @@
 #!/bin/bash
 # docs/SIMULATE.md names every option of `simulate --help`, and no other one. So does its list of tables for --record.
+# Runs beside other tests.
 set -u
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 programs=${ENDOVASCULAR_PROGRAMS:-$repository/catkin_ws/devel/lib/endovascular_sim}

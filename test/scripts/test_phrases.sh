@@ -1,6 +1,7 @@
 #!/bin/bash
 # No file of the repository holds a phrase of test/data/phrases_not_used.txt: sentences that were rewritten in the standard
 # terms of the field. Line breaks and comment markers between the words do not hide a phrase.
+# Runs beside other tests.
 set -eu
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 - <<'PYTHON'

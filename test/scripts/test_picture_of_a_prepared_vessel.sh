@@ -1,5 +1,6 @@
 #!/bin/bash
 # `plots vessel` draws the output of vessel_prepare; without that output it names the missing file.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Every picture of the documentation is made by the present state of its inputs, has an entry in docs/images/manifest.yaml and pages
 # that show it; a changed input, a foreign picture and a missing one are named.
+# Runs beside other tests.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 "$repository/docs/images/make_pictures.py" --check

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Phase pictures show wall, instruments and stent; forces.png has one curve per instrument; the moments for rviz have instruments
 # in the vessel.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 export PYTHONPATH=$repository/python REPOSITORY=$repository FOLDER=$folder PYTHONDONTWRITEBYTECODE=1

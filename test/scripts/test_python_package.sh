@@ -1,5 +1,6 @@
 #!/bin/bash
 # The Python package of the devel space: test/python.
+# Runs beside other tests.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 devel=${ENDOVASCULAR_DEVEL_DIR:-$repository/catkin_ws/devel}

@@ -1,5 +1,6 @@
 #!/bin/bash
 # The fast rows of docs/REPRODUCE.md have the results of docs/validation/reproduce.csv, and the tables of the page are those of that file.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 devel=${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}

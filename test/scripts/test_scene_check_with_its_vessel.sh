@@ -1,5 +1,6 @@
 #!/bin/bash
 # With --vessel, scene_check accepts the default scene and refuses an entry at a centreline end that does not exist.
+# Runs beside other tests.
 set -eu
 repository=$(cd "$(dirname "$0")/../.." && pwd)
 programs=$repository/catkin_ws/devel/lib/endovascular_sim

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Real images become vessels that run the scene mesh: no node leaves them, no surface is more than 0.1 mm beyond the wall.
 # aorta.mha (and aorta-surface.stl, the level set of VMTK) and CT_AVM.nii.gz are third-party data in ENDOVASCULAR_DATA_DIR.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 data=${ENDOVASCULAR_DATA_DIR:-/nonexistent}

@@ -1,21 +1,10 @@
 #!/bin/bash
 # No scene of config/scenes gives a warning, with its vessel. Scenes whose mesh is not in ENDOVASCULAR_DATA_DIR are left out;
 # mesh.yaml has a tube for the user's mesh.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
-/usr/bin/python3 - "$folder/tube.obj" <<'PYTHON'
-import math, sys
-around, along = 24, 40
-with open(sys.argv[1], "w") as out:
-    for row in range(along + 1):
-        for k in range(around):
-            angle = 2 * math.pi * k / around
-            print("v", 4 * math.cos(angle), 4 * math.sin(angle), 160 * row / along, file=out)
-    for row in range(along):
-        for k in range(around):
-            a, b = row * around + k + 1, row * around + (k + 1) % around + 1
-            print("f", a, b, b + around, a + around, file=out)
-PYTHON
+/usr/bin/python3 "$repository/test/scripts/make_tube.py" "$folder/tube.obj"
 failed=0
 for scene in "$repository"/config/scenes/*.yaml; do
   arguments=()

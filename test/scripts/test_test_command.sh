@@ -22,12 +22,20 @@ make_program crashing "$passes; echo '[ RUN      ] Suite.Other'; kill -SEGV \$\$
 make_program hanging "$passes; echo '[ RUN      ] Suite.Other'; sleep 60"
 printf 'exit 77\n' > "$folder/test/scripts/test_that_cannot_run.sh"
 printf 'true\n' > "$folder/test/scripts/test_that_passes.sh"
+# Each of two scripts waits for the other one.
+for pair in 'first second' 'second first'; do
+  set -- $pair
+  printf '# Runs beside other tests.\ntouch "%s/%s"\nfor k in $(seq 600); do [ ! -e "%s/%s" ] || exit 0; sleep 0.1; done\nexit 1\n' \
+    "$folder" "$1" "$folder" "$2" > "$folder/test/scripts/test_$1.sh"
+done
+shared=2
+[ "$(nproc)" -gt 1 ] || { rm "$folder"/test/scripts/test_{first,second}.sh; shared=0; }
 
 status=0
 /usr/bin/python3 "$repository/catkin_ws/lib/run_tests.py" "$folder" --ceiling 2 > "$folder/output" || status=$?
 cat "$folder/output"
 [ "$status" -eq 1 ]
-[ "$(tail -n 1 "$folder/output")" = '4 passed, 3 failed, 2 skipped' ]
+[ "$(tail -n 1 "$folder/output")" = "$((4 + shared)) passed, 3 failed, 2 skipped" ]
 grep -q 'FAILED  Suite.Other/1: wrong' "$folder/output"
 grep -q 'FAILED  Suite.Other: the program ended with code -11' "$folder/output"
 grep -q 'FAILED  Suite.Other: not finished within 2 s' "$folder/output"

@@ -2,6 +2,7 @@
 # The reference runs of test/data/trajectory_hashes.txt give their recorded trajectories, bit for bit. Runs whose mesh is not
 # in ENDOVASCULAR_DATA_DIR are left out.
 #   --renew   writes the hashes of this build into the table, after an intended change of the physics
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 table=$repository/test/data/trajectory_hashes.txt

@@ -1,6 +1,7 @@
 #!/bin/bash
 # vessel_segment makes the same mesh from the same grid in every image format, of three writers (own, ITK, pydicom), with any
 # number of threads, and for permuted, flipped and oblique axes.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # vessel_segment makes a vessel for scenes and a centreline that is an anatomy. --open and --closed name ends by points, as
 # vessel_server prints them for a click in rviz. No output holds the name, number or date of birth of the patient.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"

@@ -1,5 +1,6 @@
 #!/bin/bash
 # vessel_segment refuses wrong images and clicks with place and remedy, leaves no vessel, and warns of doubtful images.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 cd "$folder"

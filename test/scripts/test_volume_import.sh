@@ -1,6 +1,7 @@
 #!/bin/bash
 # volume_import reads images of all formats, written without ITK, and refuses wrong ones. No installed program but
 # volume_import loads ITK, and none loads FFTW, whose licence is the GPL.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 

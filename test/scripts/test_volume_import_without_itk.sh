@@ -1,6 +1,7 @@
 #!/bin/bash
 # A build without ITK has a volume_import that names the commands for its installation, and an installation of ITK changes
 # the options of the build, so that CMake searches it again.
+# Runs beside other tests.
 set -eu
 . "$(dirname "$0")/folder_of_a_test.sh"
 

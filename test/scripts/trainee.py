@@ -5,7 +5,7 @@ import math
 import numpy
 import rospy
 import yaml
-from endovascular_sim.msg import SessionSample, VesselCentreline
+from endovascular_sim.msg import HeartPhase, SessionSample, VesselCentreline
 
 STALLED = 2.0  # simulated time without progress after which the person pulls back [s]
 PROGRESS = 2e-3  # motion of a tip that counts as progress [m]
@@ -15,6 +15,12 @@ LIMIT = 240.0  # wall time of one motion [s]
 def arc_lengths(points):
     """Arc length of each point of a polyline from the first one [m]."""
     return numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(points, axis=0), axis=1))])
+
+
+def atmospheres(pressure):
+    """Pressure of a procedure, in Pa or with its unit, as the panel takes it [atm]."""
+    number, _, unit = str(pressure).partition(" ")
+    return float(number) * {"": 1.0 / 101325.0, "Pa": 1.0 / 101325.0, "bar": 1e5 / 101325.0, "atm": 1.0}[unit]
 
 
 class Trainee:
@@ -28,6 +34,8 @@ class Trainee:
             self.steps = yaml.safe_load(file)["steps"]
         self.sample = self.branches = None
         self.count = 0  # messages of ProcedureStep that were examined
+        self.hyperaemia = False
+        rospy.Subscriber("hemodynamics/phase", HeartPhase, lambda heart: setattr(self, "hyperaemia", bool(heart.hyperaemia)), queue_size=1)
         rospy.Subscriber("session/sample", SessionSample, lambda message: setattr(self, "sample", message), queue_size=1)
         rospy.Subscriber("vessel/centreline", VesselCentreline, self._take_branches, queue_size=1)
         session.wait(60, lambda: self.sample is not None and self.branches is not None, "samples and the centreline")
@@ -138,7 +146,16 @@ class Trainee:
         number = self.number()
         step = self.steps[number - 1]
         if "inflate" in step:
-            self.session.set_pressure(step["pressure"] / 101325.0)
+            pressure = atmospheres(step["pressure"])
+            if pressure < 0.0:  # the vacuum has a button of its own
+                self.session.click("deflate")
+            else:
+                self.session.set_pressure(pressure)
+            self.session.wait(LIMIT, lambda: self.number() != number or self.is_done(), "step %d" % number)
+            return
+        if "wait" in step:
+            if "hyperaemia" in step and self.hyperaemia != step["hyperaemia"]:
+                self.session.click("adenosine")
             self.session.wait(LIMIT, lambda: self.number() != number or self.is_done(), "step %d" % number)
             return
         name = step.get("advance") or step.get("withdraw")

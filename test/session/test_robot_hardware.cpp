@@ -178,7 +178,7 @@ TEST(RobotHardware, AddedFaultsAreSavedAndLoaded)
 TEST(RobotHardware, AVelocityGoesOnThroughSlipping)
 {
   Session session(tubeWith({"drive={source: topic, initial_insertion: 0.02}"}),
-                  {false, 0.0, true, {}, nullptr, nullptr});
+                  {false, 0.0, true, {}, nullptr, nullptr, nullptr});
   session.addFault({0, robot::FaultAxis::kInsertion, robot::FaultKind::kSlipping, 0.5});
   const double before = session.observe().hand(0).insertion;
   for (int k = 0; k < 10; ++k)

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "rod/energy/energy_audit.h"
@@ -30,6 +32,18 @@ TEST(EnergyAuditOfScenes, ClosesInATubeAndLeavesTheTrajectoryUnchanged)
   EXPECT_GT(balance.push, 1e-3);
   EXPECT_GT(balance.bending, 0.3 * balance.push);
   EXPECT_GT(balance.wall_friction, 0.05 * balance.push);
+  EXPECT_NEAR(balance.error(), 0.0, 0.01 * balance.turnover);
+}
+
+TEST(EnergyAuditOfScenes, ClosesInFlowingBloodWhoseWorkIsAnItem)
+{
+  session::Session session("catheter", {"duration=3", "flow=adult", "flow.drag=all"});
+  rod::EnergyAudit audit;
+  session.simulation().setObserver(&audit);
+  while (!session.isOver())
+    session.step();
+  const rod::EnergyBalance& balance = audit.balance();
+  EXPECT_GT(std::abs(balance.stream), 1e-6);
   EXPECT_NEAR(balance.error(), 0.0, 0.01 * balance.turnover);
 }
 

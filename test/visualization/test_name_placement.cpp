@@ -202,6 +202,43 @@ TEST(NamePlacement, BranchesBeyondTheReachHaveNoName)
   EXPECT_EQ(names.size(), placeNames(fork(), viewFromTheFront()).size());
 }
 
+TEST(NamePlacement, TheBranchThatComesFirstHasAPlaceBeforeTheOthers)
+{
+  std::vector<BranchToName> branches{branch("first", {-0.1, 0, -0.2}, {-0.1, 0, 0.2}),
+                                     branch("second", {0, 0, -0.1}, {0, 0, 0.1})};
+  PictureView view = viewFromTheFront();
+  view.width = 200.0;
+  const std::vector<PlacedName> names = placeNames(branches, view);
+  ASSERT_EQ(names.size(), 2U);
+  EXPECT_EQ(names[0].text, "first") << "the longest one";
+  branches[1].comes_first = true;
+  EXPECT_EQ(placeNames(branches, view)[0].text, "second");
+}
+
+TEST(NamePlacement, NamesOfThePictureBeforeAreNotCutByItsEdges)
+{
+  PictureView view = viewFromTheFront();
+  view.width = 300.0;
+  const std::vector<PlacedName> before = placeNames(fork(), view);
+  ASSERT_FALSE(before.empty());
+  for (const double step : {-0.3, -0.02, 0.0, 0.02, 0.3})
+  {
+    view.eye.x() = step;
+    for (const PlacedName& name : before)
+    {
+      const Rectangle box = name.boxInside(view);
+      EXPECT_TRUE((box.low.array() >= -0.5 * Eigen::Array2d(view.width, view.height) - 1e-9).all()) << name.text;
+      EXPECT_TRUE((box.high.array() <= 0.5 * Eigen::Array2d(view.width, view.height) + 1e-9).all()) << name.text;
+      EXPECT_LT((box.high - box.low - name.size).norm(), 1e-9);
+      PictureView with_legends = view;
+      with_legends.legend_width = view.width;
+      with_legends.legend_height = 0.4 * view.height;
+      EXPECT_GE(name.boxInside(with_legends).low.y(), -0.1 * view.height - 1e-9) << name.text;
+      EXPECT_TRUE(step != 0.0 || (box.low - name.box(view).low).norm() < 1e-12) << "in the picture already";
+    }
+  }
+}
+
 TEST(NamePlacement, NamesKeepTheirPlacesWhileTheCameraMovesALittle)
 {
   const std::vector<BranchToName> branches = fork();

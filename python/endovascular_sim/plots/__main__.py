@@ -21,19 +21,24 @@ COMMANDS = {
 }
 
 
+def run_command(name, program, words):
+    """Runs a command under the name of a program; returns the exit code."""
+    module = importlib.import_module(".commands." + name, __package__)
+    parser = command.argument_parser(program, module.__doc__, getattr(module, "EXIT_CODES", command.EXIT_CODES))
+    module.add_arguments(parser)
+    options = parser.parse_args(words)
+    try:
+        return module.run(options) or 0
+    except (command.Failure, ImportError, OSError, ValueError) as error:
+        print("%s: %s" % (program, error), file=sys.stderr)
+        return 1
+
+
 def main(words=None):
     """Runs a command; returns the exit code."""
     words = sys.argv[1:] if words is None else words
     if words and words[0] in COMMANDS:
-        module = importlib.import_module(".commands." + words[0], __package__)
-        parser = command.argument_parser("plots " + words[0], module.__doc__, getattr(module, "EXIT_CODES", command.EXIT_CODES))
-        module.add_arguments(parser)
-        options = parser.parse_args(words[1:])
-        try:
-            return module.run(options) or 0
-        except (command.Failure, ImportError, OSError, ValueError) as error:
-            print("%s: %s" % (parser.prog, error), file=sys.stderr)
-            return 1
+        return run_command(words[0], "plots " + words[0], words[1:])
     parser = command.argument_parser("plots", __doc__)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, summary in COMMANDS.items():

@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr double kCoplanar = 1e-12;  // squared sine, or volume, of normals that count as dependent
+constexpr double kLargest = 2.0;     // share of one triangle, relative to the force that is divided
 
 /** Factors of unit normals whose sum is nearest to a force; 0 for one that depends on those before it.
  *  @param count of the normals, 1 to 3 */
@@ -30,6 +31,15 @@ Eigen::Vector3d nearestSum(const std::array<Eigen::Vector3d, FacetForces::kMost>
   const double third = volume * volume > kCoplanar ? across.dot(force) / volume : 0.0;
   const Eigen::Vector3d rest = third != 0.0 ? Eigen::Vector3d(force - third * normals[2]) : force;
   return {rest.cross(b).dot(across) / squared, a.cross(rest).dot(across) / squared, third};
+}
+
+/** Largest share of a division [N]. */
+double largestOf(const FacetForces::Shares& shares)
+{
+  double force = 0.0;
+  for (std::size_t k = 0; k < shares.count; ++k)
+    force = std::max(force, shares.share[k].force);
+  return force;
 }
 
 }  // namespace
@@ -53,7 +63,8 @@ FacetForces::FacetForces(const geometry::TriangleMesh& mesh) : neighbour_(mesh.t
   }
 }
 
-/** Adds a triangle to those that carry the force, if it then leaves less of it. */
+/** Adds a triangle to those that carry the force, if it then leaves less of it. Triangles that face each other could
+ * carry any force in addition, because their forces cancel out: such a division is left out. */
 void FacetForces::add(int triangle, Attempt& attempt) const
 {
   Shares shares = attempt.shares;
@@ -61,7 +72,7 @@ void FacetForces::add(int triangle, Attempt& attempt) const
     return;
   shares.share[shares.count++].triangle = triangle;
   const double rest = solve(attempt.force, shares);
-  if (rest >= (1.0 - kBalanced) * attempt.rest)
+  if (rest >= (1.0 - kBalanced) * attempt.rest || largestOf(shares) > kLargest * attempt.force.norm())
     return;
   attempt.rest = rest;
   attempt.shares = shares;

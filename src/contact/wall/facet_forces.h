@@ -36,8 +36,8 @@ public:
   explicit FacetForces(const geometry::TriangleMesh& mesh);
 
   /** Divides a force among few triangles: those that are touched, in the order in which they are given, then their
-   *  neighbours, between which an edge of the mesh pushes. No triangle pulls. Where no forces balance it, the nearest
-   *  ones are taken.
+   *  neighbours, between which an edge of the mesh pushes. No triangle pulls, and none carries more
+   *  than twice the force. Where no such forces balance it, the nearest ones are taken.
    *  @param force of the wall on the wire [N]
    *  @param touched triangles, the deepest first; −1: none */
   template <std::size_t N>

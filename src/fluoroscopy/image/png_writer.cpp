@@ -10,16 +10,18 @@ namespace
 {
 
 template <typename Pixel>
-void write(const std::string& file, int width, int height, const std::vector<Pixel>& grey, png_uint_32 format)
+void write(const std::string& file, int width, int height, const std::vector<Pixel>& values, png_uint_32 format)
 {
-  if (width <= 0 || height <= 0 || grey.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+  const std::size_t channels = PNG_IMAGE_SAMPLE_CHANNELS(format);
+  if (width <= 0 || height <= 0 ||
+      values.size() != channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
     throw InputError(file, "size", "the image must have width times height pixels");
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
   image.format = format;
-  if (png_image_write_to_file(&image, file.c_str(), 0, grey.data(), 0, nullptr) == 0)
+  if (png_image_write_to_file(&image, file.c_str(), 0, values.data(), 0, nullptr) == 0)
     throw InputError(
         file, "",
         std::string("cannot be written (") + image.message + "); choose an existing, writable folder with free space");
@@ -35,6 +37,11 @@ void writePng(const std::string& file, int width, int height, const std::vector<
 void writePng(const std::string& file, int width, int height, const std::vector<std::uint16_t>& grey)
 {
   write(file, width, height, grey, PNG_FORMAT_LINEAR_Y);
+}
+
+void writeColourPng(const std::string& file, int width, int height, const std::vector<std::uint8_t>& colours)
+{
+  write(file, width, height, colours, PNG_FORMAT_RGB);
 }
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -1,6 +1,7 @@
 #include "nodes/conversions/image_conversions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -97,6 +98,22 @@ geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoro
   message.transform.rotation.z = rotation.z();
   message.transform.rotation.w = rotation.w();
   return message;
+}
+
+fluoroscopy::CArmPose poseOf(const geometry_msgs::Transform& source, const fluoroscopy::CArmPose& present)
+{
+  constexpr double kUnit = 1e-6;  // difference of the quaternion's norm from 1
+  const Eigen::Quaterniond rotation(source.rotation.w, source.rotation.x, source.rotation.y, source.rotation.z);
+  const Eigen::Vector3d position(source.translation.x, source.translation.y, source.translation.z);
+  if (!position.allFinite() || !(std::abs(rotation.norm() - 1.0) < kUnit))
+    throw InputError("C-arm", "pose", "must be finite, with a rotation");
+  const Eigen::Matrix3d axes = rotation.normalized().toRotationMatrix();
+  fluoroscopy::CArmPose pose = present;
+  // By the axes of XRayGeometry: right = (cos a, sin a, 0), forward.z = sin b.
+  pose.primary_angle = std::atan2(axes(1, 0), axes(0, 0));
+  pose.secondary_angle = std::asin(std::clamp(axes(2, 2), -1.0, 1.0));
+  pose.isocentre = position + pose.source_to_patient * axes.col(2);
+  return pose;
 }
 
 geometry_msgs::TransformStamped sourceViewTransform(const ros::Time& stamp)

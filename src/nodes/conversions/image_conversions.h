@@ -36,6 +36,10 @@ sensor_msgs::Image mirrored(const sensor_msgs::Image& image);
 
 /** From `x_ray_source_optical` to `patient`. */
 geometry_msgs::TransformStamped toTransform(const ros::Time& stamp, const fluoroscopy::XRayGeometry& geometry);
+/** Pose of the C-arm whose source is at a transform of the function above.
+ *  @param present gives what the transform does not hold: distances, width and field of the detector
+ *  @throws InputError for a transform that is not finite or no rotation */
+fluoroscopy::CArmPose poseOf(const geometry_msgs::Transform& source, const fluoroscopy::CArmPose& present);
 
 /** From `x_ray_source_view_optical` to `x_ray_source_optical`, for all poses. */
 geometry_msgs::TransformStamped sourceViewTransform(const ros::Time& stamp);

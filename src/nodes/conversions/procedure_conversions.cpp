@@ -28,4 +28,35 @@ procedure::StepRecord fromMessage(const ProcedureStep& message)
   return record;
 }
 
+std::vector<ProcedureStep> ProcedureMessages::changes(const procedure::Operator& scripted, std::uint64_t steps,
+                                                      bool repeats)
+{
+  const std::vector<procedure::StepRecord>& records = scripted.records();
+  std::vector<ProcedureStep> messages;
+  for (std::size_t k = newest_.begun == 0 ? 0 : newest_.begun - 1; k < records.size(); ++k)
+  {
+    const procedure::StepRecord& step = records[k];
+    const bool is_changed = k + 1 != newest_.begun || static_cast<std::uint8_t>(step.outcome) != newest_.outcome ||
+                            static_cast<std::uint32_t>(step.retries) != newest_.retries ||
+                            static_cast<std::uint32_t>(step.wrong_branches) != newest_.wrong_branches;
+    if (!is_changed && !repeats)
+      continue;
+    newest_.step = steps;
+    newest_.time = step.end;
+    newest_.begun = static_cast<std::uint32_t>(k + 1);
+    newest_.phase = step.phase;
+    newest_.name = step.name;
+    newest_.begin = step.begin;
+    newest_.retries = static_cast<std::uint32_t>(step.retries);
+    newest_.wrong_branches = static_cast<std::uint32_t>(step.wrong_branches);
+    newest_.outcome = static_cast<std::uint8_t>(step.outcome);
+    newest_.failure = scripted.failure();
+    newest_.hint = step.hint;
+    newest_.step_of_procedure = static_cast<std::uint32_t>(step.step + 1);
+    newest_.steps_of_procedure = static_cast<std::uint32_t>(scripted.steps());
+    messages.push_back(newest_);
+  }
+  return messages;
+}
+
 }  // namespace endovascular_sim::nodes

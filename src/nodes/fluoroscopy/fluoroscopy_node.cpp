@@ -75,6 +75,14 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
       node, names::kTreatmentVisual, 1, [this](const TreatmentVisual& message) { receiveTreatment(message); });
   c_arm_subscriber_ =
       subscribeGuarded<CArm>(node, names::kCArmCommand, 1, [this](const CArm& message) { receiveCommand(message); });
+  if (parameters.param("follows_recording", false))
+    pose_subscriber_ = subscribeGuarded<tf2_msgs::TFMessage>(
+        node, "/tf", kPoseQueue,
+        [this](const ros::MessageEvent<tf2_msgs::TFMessage const>& event)
+        {
+          if (event.getPublisherName() != ros::this_node::getName())  // its own poses are not recorded ones
+            receivePoses(*event.getConstMessage());
+        });
   updater_.setHardwareID("simulated C-arm");
   updater_.add("Fluoroscopy", this, &FluoroscopyNode::diagnose);
   const ros::SubscriberStatusCallback sendPose = [this](const ros::SingleSubscriberPublisher& listener)
@@ -159,8 +167,22 @@ void FluoroscopyNode::receiveCommand(const CArm& message)
       });
 }
 
+void FluoroscopyNode::receivePoses(const tf2_msgs::TFMessage& message)
+{
+  for (const geometry_msgs::TransformStamped& pose : message.transforms)
+    if (pose.header.frame_id == names::kPatientFrame && pose.child_frame_id == names::kXRaySourceFrame)
+      processInput(
+          [&]
+          {
+            room_.placeAt(poseOf(pose.transform, room_.gantry().target()));
+            has_recorded_pose_ = true;
+          });
+}
+
 void FluoroscopyNode::advanceGantry()
 {
+  if (has_recorded_pose_)
+    return;
   // By the steady clock, so that the C-arm moves while the simulation is paused, or by ROS time where that is faster:
   // in a fast simulation or replay.
   const ros::SteadyTime now = ros::SteadyTime::now();
@@ -177,7 +199,7 @@ void FluoroscopyNode::advanceGantry()
  *  would be refused by every listener. A new listener gets the newest pose. */
 void FluoroscopyNode::broadcastPose(const ros::Time& stamp)
 {
-  if (stamp == broadcast_stamp_)
+  if (stamp == broadcast_stamp_ || has_recorded_pose_)
     return;
   broadcast_stamp_ = stamp;
   pose_.transforms = {toTransform(stamp, room_.geometry())};

@@ -21,7 +21,8 @@ namespace endovascular_sim::nodes
 {
 
 /** ROS node of fluoroscopy, an XRayRoom with topics: moves the C-arm and its table at frame rate, and renders the
- * images while one of their topics has a subscriber. */
+ * images while one of their topics has a subscriber. With `~follows_recording` it takes the poses of the C-arm from
+ * /tf. */
 class FluoroscopyNode
 {
 public:
@@ -40,6 +41,8 @@ private:
   void receiveRod(const RodStateVisual& message);
   void receiveTreatment(const TreatmentVisual& message);
   void receiveCommand(const CArm& message);
+  /** Takes over the pose of the C-arm from a recording. */
+  void receivePoses(const tf2_msgs::TFMessage& message);
   void advanceGantry();
   void broadcastPose(const ros::Time& stamp);
   bool hasSubscribers() const;
@@ -52,7 +55,8 @@ private:
   template <typename Work>
   void processInput(const Work& work);
 
-  double rate_;  ///< of the frames [Hz]
+  double rate_;                     ///< of the frames [Hz]
+  bool has_recorded_pose_ = false;  ///< true: a recording gives the pose of the C-arm
   XRayRoom room_;
   std::string patient_error_;       ///< reason why the patient cannot be loaded
   ros::SteadyTime gantry_time_;     ///< time up to which the gantry has moved
@@ -83,7 +87,8 @@ private:
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   diagnostic_updater::Updater updater_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber mesh_subscriber_, centreline_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_;
+  ros::Subscriber mesh_subscriber_, centreline_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_,
+      pose_subscriber_;
   ros::SteadyTimer frame_timer_, diagnostics_timer_;
 };
 

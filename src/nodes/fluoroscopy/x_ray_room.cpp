@@ -51,11 +51,11 @@ bool XRayRoom::canLoadPatient() const
          (!scene_.vessel || (!vessel_.mesh.triangles.empty() && !vessel_.centreline.branches.empty()));
 }
 
-std::vector<std::string> XRayRoom::loadPatient()
+std::vector<std::string> XRayRoom::loadPatient(const std::optional<fluoroscopy::ProgressiveResolution>& resolution)
 {
   const vessel::Vessel vessel = std::exchange(vessel_, {});
-  simulation::XRayPatient loaded =
-      simulation::loadPatient(scene_, vessel, simulation::sequenceResolution(scene_.fluoroscopy->rate));
+  simulation::XRayPatient loaded = simulation::loadPatient(
+      scene_, vessel, resolution.value_or(simulation::sequenceResolution(scene_.fluoroscopy->rate)));
   fluoroscope_.setPatient(std::move(loaded.patient));
   needs_patient_ = false;
   return loaded.notes;
@@ -90,6 +90,15 @@ void XRayRoom::advance(double duration)
   }
   if (gantry_.advance(duration))
     applyPose();
+}
+
+void XRayRoom::placeAt(const fluoroscopy::CArmPose& pose)
+{
+  if (pose == gantry_.pose())
+    return;
+  gantry_.stopAt(pose);
+  isocentre_known_ = true;
+  applyPose();
 }
 
 /** Gives the pose of the gantry to the fluoroscope. The gantry stops in front of a collision. */

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "fluoroscopy/gantry/gantry.h"
+#include "fluoroscopy/patient/progressive_projection.h"
 #include "simulation/fluoroscopy_system.h"
 #include "vessel/model/vessel.h"
 
@@ -45,9 +46,11 @@ public:
   bool canLoadPatient() const;
 
   /** Loads the patient. After a failure canLoadPatient() is false until the vessel arrives again.
+   *  @param resolution empty: that of a sequence at the frame rate of the scene
    *  @return notes on its origin and placement
    *  @throws InputError when it cannot be loaded */
-  std::vector<std::string> loadPatient();
+  std::vector<std::string> loadPatient(
+      const std::optional<fluoroscopy::ProgressiveResolution>& resolution = std::nullopt);
 
   // ------------------------------------------------------------------------------------------------------ the C-arm
 
@@ -60,6 +63,10 @@ public:
    *  @param duration [s]
    *  @throws InputError at a collision, where they stop */
   void advance(double duration);
+
+  /** Places C-arm and table at a pose without motion, e.g. at the recorded one.
+   *  @throws InputError when they cannot be there; they stay where they are */
+  void placeAt(const fluoroscopy::CArmPose& pose);
 
   const fluoroscopy::Gantry& gantry() const { return gantry_; }
   const fluoroscopy::XRayGeometry& geometry() const { return fluoroscope_.geometry(); }

@@ -5,6 +5,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <std_msgs/Empty.h>
+#include <std_msgs/String.h>
 
 #include "common/error.h"
 #include "nodes/conversions/command_diagnostics.h"
@@ -43,6 +44,10 @@ RobotNode::RobotNode(const ros::NodeHandle& node, const scene::Scene& scene)
 {
   checkFrames(control_.model());
   node_.setParam(names::kRobotDescription, control_.model().urdf);
+  description_ = node_.advertise<std_msgs::String>(names::kRobotDescriptionTopic, 1, true);
+  std_msgs::String description;
+  description.data = control_.model().urdf;
+  description_.publish(description);
   frames_.sendTransform(toTransform(*scene.robot));
   advertise();
   connectInstruments();

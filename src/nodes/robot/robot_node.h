@@ -79,7 +79,7 @@ private:
   double time_ = 0.0;  ///< of the newest setpoint [s]
   std::vector<Instrument> instruments_;
   JointStream measured_, setpoint_, goal_;
-  ros::Publisher joint_states_, tip_, wall_force_, state_, reason_;
+  ros::Publisher description_, joint_states_, tip_, wall_force_, state_, reason_;
   ros::Time joint_states_at_;           ///< stamp of the last message
   std::string published_reason_ = "-";  ///< no reason yet
   tf2_ros::StaticTransformBroadcaster frames_;

@@ -51,6 +51,8 @@ GraphSimulation::GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& p
         numericParameter(parameters, "contact_patience", pace == Pace::kRealTime ? kContactTimeout : kContactPatience,
                          quantities::kWait),
         costs_);
+  if (scene_.flow)
+    flow_ = std::make_shared<RemoteFlowSource>(node_, costs_);
   setState(drive::OperatingState::kDisabled, "waiting for the vessel and the contact node");
 }
 
@@ -67,13 +69,16 @@ std::optional<vessel::Vessel> GraphSimulation::waitForVessel()
     version = mesh.version;
   };
   const auto takeCentreline = [&vessel](const VesselCentreline& centreline)
-  { vessel.centreline = fromMessage(centreline); };
+  {
+    vessel.centreline = fromMessage(centreline);
+    vessel.lesions = lesionsFromMessage(centreline);
+  };
   if (!waitForLatched<VesselMesh>(node_, names::kVesselMesh, takeMesh) ||
       !waitForLatched<VesselCentreline>(node_, names::kVesselCentreline, takeCentreline))
     return std::nullopt;
   server_ = std::make_unique<VesselServerMonitor>(node_);
   if (simulation::hasBalloon(scene_))
-    wall_ = std::make_shared<RemoteDeformableWall>(node_, newestVersion(version, node_));
+    wall_ = std::make_shared<RemoteDeformableWall>(node_, newestVersion(version, node_), scene_.flow.has_value());
   return vessel;
 }
 
@@ -86,15 +91,43 @@ bool GraphSimulation::connect()
   session::SessionSettings settings;
   settings.contacts = contacts_;
   settings.wall = wall_;
+  settings.flow = flow_;
   settings.varied = false;
   session_.emplace(world, std::move(settings));
+  connectFlow();
   if (scene_.procedure)
     procedure_.emplace(node_, scene_);
   if (!contacts_)
     return true;
   forces_ = std::make_unique<ContactForcePublisher>(node_, scene_, *world->vessel(), world->meshHash());
   ROS_INFO("waiting for the contact node");
-  return contacts_->waitForNode(simulation().initialQuery()) && (!wall_ || wall_->waitForServer());
+  if (!contacts_->waitForNode(simulation().initialQuery()) || (wall_ && !wall_->waitForServer()))
+    return false;
+  if (!flow_)
+    return true;
+  ROS_INFO("waiting for the node hemodynamics");
+  return flow_->waitForNode();
+}
+
+void GraphSimulation::connectFlow()
+{
+  if (!flow_)
+    return;
+  const flow::VesselFlowTree& network = simulation().blood()->places().tree();
+  flow_->setSizes({static_cast<std::size_t>(network.tree.nodes), network.tree.cells.size(),
+                   simulation::pressureLines(scene_).size(), session_->world().vessel()->lesions.size()});
+  hemodynamics_.emplace(node_, session_->flowControls());
+}
+
+bool GraphSimulation::needsFlow() const
+{
+  const simulation::BloodCoupling* blood = simulation().blood();
+  return flow_ && blood != nullptr && blood->isPending() && blood->isDue(simulation().steps());
+}
+
+bool GraphSimulation::needsWall()
+{
+  return flow_ && wall_ && wall_->isBehind(simulation().steps());
 }
 
 const vessel::CentrelineTree& GraphSimulation::centreline() const
@@ -111,6 +144,8 @@ void GraphSimulation::step()
   // Metrics end with the procedure, as those of `simulate`.
   const bool counted = scripted == nullptr || scripted->progress() == procedure::Progress::kRunning;
   const std::vector<drive::HandCommand>& commands = nextCommands();
+  if (flow_)
+    flow_->setStamp(now());
   {
     const LoopCosts::Scope scope(costs_, LoopPhase::kSimulation);
     session_->step(commands);
@@ -125,6 +160,8 @@ const std::vector<drive::HandCommand>& GraphSimulation::nextCommands()
   if (procedure_)
     procedure_->publishChanges(*session_->scriptedOperator(), simulation().steps(), now());
   hardware_.applyChanges(*session_);
+  if (hemodynamics_)
+    hemodynamics_->applyChanges(*session_, now());
   return drives_.next(simulation(), scripted, session_->faults());
 }
 
@@ -154,6 +191,12 @@ void GraphSimulation::publishBeginning()
   clock_.publish(simulation().steps());
   if (forces_)
     forces_->publishMap(simulation(), now());
+}
+
+void GraphSimulation::publishControls(std::uint32_t run)
+{
+  if (hemodynamics_)
+    hemodynamics_->beginRun(*session_, run, now());
 }
 
 void GraphSimulation::publishEnd(const std::string& reason)

@@ -14,11 +14,13 @@
 #include "nodes/rod_dynamics/control/simulation_clock.h"
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
 #include "nodes/rod_dynamics/instruments/graph_hardware.h"
+#include "nodes/rod_dynamics/instruments/graph_hemodynamics.h"
 #include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
 #include "nodes/rod_dynamics/instruments/instrument_publisher.h"
 #include "nodes/rod_dynamics/procedure_publisher.h"
 #include "nodes/rod_dynamics/remote_contact_source.h"
 #include "nodes/rod_dynamics/remote_deformable_wall.h"
+#include "nodes/rod_dynamics/remote_flow_source.h"
 #include "nodes/rod_dynamics/rod_publisher.h"
 #include "nodes/rod_dynamics/vessel_server_monitor.h"
 #include "session/session.h"
@@ -26,8 +28,8 @@
 namespace endovascular_sim::nodes
 {
 
-/** Session of a scene with its connections to the graph: the vessel, the contact node, the commands to its instruments,
- *  and all of its topics. */
+/** Session of a scene with its connections to the graph: the vessel, the contact node, the flow of blood, the commands
+ * to its instruments, and all of its topics. */
 class GraphSimulation
 {
 public:
@@ -35,7 +37,8 @@ public:
    *  @throws InputError for an invalid parameter or file of commands */
   GraphSimulation(ros::NodeHandle& node, const ros::NodeHandle& parameters, scene::Scene scene, Pace pace);
 
-  /** Waits for the vessel and the contact node, and opens the session. @return false when ROS shut down before */
+  /** Waits for the vessel and for the nodes of contact and flow, and opens the session. @return false when ROS shut
+   * down before */
   bool connect();
 
   /** Advances by one step with the commands of the drives, and publishes it. */
@@ -52,6 +55,10 @@ public:
 
   /** Publishes the beginning of a run: the time, and an empty map of the wall forces. */
   void publishBeginning();
+
+  /** Publishes the controls of the circulation at the beginning of a run.
+   *  @param run its number */
+  void publishControls(std::uint32_t run);
 
   /** Publishes the end: forces of zero, and the last map of the wall forces. */
   void publishEnd(const std::string& reason);
@@ -78,6 +85,14 @@ public:
   const vessel::CentrelineTree& centreline() const;
   RemoteContactSource* contacts() { return contacts_.get(); }  ///< null without a vessel
   const RemoteContactSource* contacts() const { return contacts_.get(); }
+  RemoteFlowSource* flow() { return flow_.get(); }  ///< null without flow of blood in the scene
+
+  /** Reports whether the next step takes a step of the flow, which `hemodynamics` has computed meanwhile. */
+  bool needsFlow() const;
+
+  /** Reports whether the next step may need a wall that vessel_server has not sent. */
+  bool needsWall();
+
   DriveCommands& drives() { return drives_; }
   const LoopTimes& times() const { return costs_.last(); }  ///< of the last step
   const InstrumentPublisher& instruments() const { return instruments_; }
@@ -100,6 +115,7 @@ public:
 
 private:
   std::optional<vessel::Vessel> waitForVessel();
+  void connectFlow();
   const std::vector<drive::HandCommand>& nextCommands();
   void publishStep(const std::vector<drive::HandCommand>& commands, bool counted);
   ros::Time now() const { return clock_.stamp(session_ ? simulation().steps() : 0); }
@@ -112,12 +128,14 @@ private:
   std::shared_ptr<RemoteContactSource> contacts_;  ///< null without a vessel
   std::unique_ptr<VesselServerMonitor> server_;    ///< null without a vessel
   std::shared_ptr<RemoteDeformableWall> wall_;     ///< null without a vessel or without a balloon
+  std::shared_ptr<RemoteFlowSource> flow_;         ///< null without flow of blood in the scene
   std::optional<session::Session> session_;        ///< none before connect()
   std::optional<ProcedurePublisher> procedure_;    ///< none without a procedure in the scene
   RodPublisher publisher_;
   std::unique_ptr<ContactForcePublisher> forces_;  ///< null without a vessel
   DriveCommands drives_;
   GraphHardware hardware_;
+  std::optional<GraphHemodynamics> hemodynamics_;  ///< none without flow of blood, and before connect()
   InstrumentPublisher instruments_;
   HandForceRenderer renderer_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nodes/runtime/ros_names.h"
 
@@ -19,27 +20,20 @@ ProcedurePublisher::ProcedurePublisher(ros::NodeHandle& node, const scene::Scene
 
 void ProcedurePublisher::reset()
 {
-  published_ = ProcedureStep();
-  is_complete_ = false;
+  messages_ = ProcedureMessages();
+  begun_ = 0;
+  is_over_ = false;
   view_.clear();
 }
 
-/** Publishes the records that have changed: the newest, and the previous one when it has ended. At the scene's last
- * step the newest record is published in any case, with the time of its last observation. */
+/** Publishes the records that have changed. At the scene's last step the newest record is published in any case, with
+ * the time of its last observation. */
 void ProcedurePublisher::publishChanges(const procedure::Operator& scripted, std::uint64_t steps, ros::Time now)
 {
-  const std::vector<procedure::StepRecord>& records = scripted.records();
-  const std::size_t newest = published_.begun == 0 ? 0 : published_.begun - 1;
-  for (std::size_t k = newest; k < records.size(); ++k)
+  for (ProcedureStep& message : messages_.changes(scripted, steps, steps + 1 == last_step_))
   {
-    const bool is_new = k + 1 != published_.begun;
-    const bool is_changed = static_cast<std::uint8_t>(records[k].outcome) != published_.outcome ||
-                            static_cast<std::uint32_t>(records[k].retries) != published_.retries ||
-                            static_cast<std::uint32_t>(records[k].wrong_branches) != published_.wrong_branches;
-    if (is_new || is_changed || steps + 1 == last_step_)
-      publish(scripted, k, steps, now);
-    if (is_new)
-      ROS_INFO("procedure step %zu: %s", k + 1, records[k].name.c_str());
+    message.header.stamp = now;
+    publish(scripted, message);
   }
   publishView(scripted, now);
 }
@@ -58,33 +52,20 @@ void ProcedurePublisher::publishView(const procedure::Operator& scripted, ros::T
   c_arm_.publish(command);
 }
 
-void ProcedurePublisher::publish(const procedure::Operator& scripted, std::size_t record, std::uint64_t steps,
-                                 ros::Time now)
+void ProcedurePublisher::publish(const procedure::Operator& scripted, const ProcedureStep& message)
 {
-  const bool was_over = !published_.failure.empty() || is_complete_;
-  const procedure::StepRecord& step = scripted.records()[record];
-  published_.header.stamp = now;
-  published_.step = steps;
-  published_.time = step.end;
-  published_.begun = static_cast<std::uint32_t>(record + 1);
-  published_.phase = step.phase;
-  published_.name = step.name;
-  published_.begin = step.begin;
-  published_.retries = static_cast<std::uint32_t>(step.retries);
-  published_.wrong_branches = static_cast<std::uint32_t>(step.wrong_branches);
-  published_.outcome = static_cast<std::uint8_t>(step.outcome);
-  published_.failure = scripted.failure();
-  published_.hint = step.hint;
-  published_.step_of_procedure = static_cast<std::uint32_t>(step.step + 1);
-  published_.steps_of_procedure = static_cast<std::uint32_t>(scripted.steps());
-  is_complete_ = scripted.progress() == procedure::Progress::kDone;
-  publisher_.publish(published_);
-  if (was_over)
+  if (message.begun != begun_)
+    ROS_INFO("procedure step %u: %s", message.begun, message.name.c_str());
+  begun_ = message.begun;
+  publisher_.publish(message);
+  const bool was_over =
+      std::exchange(is_over_, !message.failure.empty() || scripted.progress() == procedure::Progress::kDone);
+  if (was_over || !is_over_)
     return;
-  if (!published_.failure.empty())
-    ROS_ERROR("the procedure failed: %s", published_.failure.c_str());
-  else if (is_complete_)
-    ROS_INFO("the procedure is complete after %.1f s", published_.time);
+  if (!message.failure.empty())
+    ROS_ERROR("the procedure failed: %s", message.failure.c_str());
+  else
+    ROS_INFO("the procedure is complete after %.1f s", message.time);
 }
 
 }  // namespace endovascular_sim::nodes

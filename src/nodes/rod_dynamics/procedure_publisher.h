@@ -6,7 +6,7 @@
 #include <ros/ros.h>
 
 #include "endovascular_sim/CArm.h"
-#include "endovascular_sim/ProcedureStep.h"
+#include "nodes/conversions/procedure_conversions.h"
 #include "procedure/operator.h"
 
 namespace endovascular_sim::nodes
@@ -28,15 +28,16 @@ public:
   void reset();
 
 private:
-  void publish(const procedure::Operator& scripted, std::size_t record, std::uint64_t steps, ros::Time now);
+  void publish(const procedure::Operator& scripted, const ProcedureStep& message);
   void publishView(const procedure::Operator& scripted, ros::Time now);
 
   std::uint64_t last_step_;  ///< last step of the scene's duration
   ros::Publisher publisher_;
-  ros::Publisher c_arm_;      ///< valid if the procedure has views and the scene has fluoroscopy
-  std::string view_;          ///< last published view
-  ProcedureStep published_;   ///< last published progress
-  bool is_complete_ = false;  ///< true after the publication of the last step's end
+  ros::Publisher c_arm_;  ///< valid if the procedure has views and the scene has fluoroscopy
+  std::string view_;      ///< last published view
+  ProcedureMessages messages_;
+  std::uint32_t begun_ = 0;  ///< of the last message
+  bool is_over_ = false;     ///< true after the publication of the last step's end, or of a failure
 };
 
 }  // namespace endovascular_sim::nodes

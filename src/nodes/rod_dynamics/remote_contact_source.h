@@ -2,10 +2,7 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
-#include <vector>
 
 #include <ros/ros.h>
 
@@ -13,19 +10,16 @@
 #include "endovascular_sim/RodState.h"
 #include "nodes/conversions/contact_set_serializer.h"
 #include "nodes/rod_dynamics/control/loop_costs.h"
+#include "nodes/rod_dynamics/query_channel.h"
 #include "nodes/rod_dynamics/response_timeout.h"
-#include "nodes/runtime/direct_callback_queue.h"
-#include "nodes/runtime/line/local_line.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** Contact node as the solver's source of contact sets, behind a local line or its topics.
+/** Contact node as the solver's source of contact sets, behind a local line or its topics (QueryChannel).
  *
  *  Lock-step: a query is sent, and the calling thread waits for the response, the set with the same step, sub-step and
- *  pass. Without a response within the timeout the set stays stale (degraded mode). A contact node of the same machine
- *  offers a local line, which carries the messages of the topics at a fraction of their cost. With it, rod/state is
- *  published for further subscribers only, and sets from the topic are ignored. */
+ *  pass. Without a response within the timeout the set stays stale (degraded mode). */
 class RemoteContactSource : public contact::ContactSource
 {
 public:
@@ -52,36 +46,20 @@ public:
   std::uint64_t rejectedSets() const { return rejected_sets_; }  ///< number of late, duplicate and invalid sets
 
 private:
-  boost::shared_ptr<StampedContactSet> emptyMessage();
-  void receive(StampedContactSet& message);
-  bool receiveFromLine(std::chrono::steady_clock::time_point deadline);
+  bool accept(StampedContactSet& message, bool is_answered);
   bool waitForResponse(double seconds);
-  bool waitForAnswer(double seconds);
   void ask(const contact::Query& query, double wanted_free_distance);
   void request(const contact::Query& query, double wanted_free_distance, contact::ContactSet& set);
-  void publish();
-  bool hasAnswer() const;
 
-  ros::NodeHandle node_;
   LoopCosts& costs_;
-  LineClient line_;
-  std::vector<std::uint8_t> frame_;  ///< query as sent over the line
-  StampedContactSet line_message_;   ///< buffer of the calling thread
-  DirectCallbackQueue queue_;
-  ros::Publisher publisher_;
   ResponseTimeout timeout_;
-  mutable std::mutex mutex_;
-  std::condition_variable answered_;
-  RodState query_;                                ///< as published
-  contact::Query asked_;                          ///< guarded: the receiving thread validates responses against it
-  contact::ContactSet answer_;                    ///< guarded
-  bool has_answer_ = false;                       ///< guarded
-  boost::shared_ptr<StampedContactSet> message_;  ///< buffer of the receiving thread
+  contact::Query asked_;        ///< guarded by the channel: responses are validated against it in its thread
+  contact::ContactSet answer_;  ///< guarded by the channel
   std::atomic<bool> heard_{false};
   std::chrono::steady_clock::time_point silent_since_;
   std::uint64_t stale_sets_ = 0;
   std::atomic<std::uint64_t> rejected_sets_{0};
-  ros::Subscriber subscriber_;  ///< last, so that it ends before the members that its callback uses
+  QueryChannel<RodState, StampedContactSet> channel_;  ///< last, so that it ends before the members that it changes
 };
 
 }  // namespace endovascular_sim::nodes

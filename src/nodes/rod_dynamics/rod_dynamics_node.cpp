@@ -137,14 +137,14 @@ bool RodDynamicsNode::run()
   return true;
 }
 
-/** Waits for the subscriber of session/steps and session/sample, if the parameter `wait_for_recorder` announces one: a
- * recording must begin with the first step. */
+/** Waits for the recorder, if the parameter `wait_for_recorder` announces one: a recording must begin with the first
+ * step. The recorder reports the run when it is connected to the states for display, too. */
 void RodDynamicsNode::waitForRecorder() const
 {
   if (!parameters_.param("wait_for_recorder", false))
     return;
   const Clock::time_point end = Clock::now() + StepScheduler::period(kRecorderTimeout);
-  while (ros::ok() && !simulation_.isRecorded())
+  while (ros::ok() && !(simulation_.isRecorded() && recorder_.isPresent() && recorder_.hasBegun(run_)))
   {
     if (Clock::now() > end)
     {
@@ -172,11 +172,11 @@ void RodDynamicsNode::runSteps()
       hold(reason);
       continue;
     }
-    if (hold_.isActive())
-    {
+    const bool was_held = hold_.isActive();
+    if (was_held)
       hold_.release();
+    if (was_held || obstacles_.hasWaitedForFirstFlow())
       scheduler.start(Clock::now());
-    }
     step(scheduler, awake);
   }
 }
@@ -225,7 +225,7 @@ void RodDynamicsNode::step(StepScheduler& scheduler, Clock::time_point awake)
 void RodDynamicsNode::hold(const std::string& reason)
 {
   hold_.begin(reason.empty() ? kBetweenCalls : 0.0);
-  hold_.announce(reason, StepObstacles::isContactLost(reason));
+  hold_.announce(reason, StepObstacles::isFault(reason));
   hold_.publish();
   services_->serve(hold_.untilNext());
 }

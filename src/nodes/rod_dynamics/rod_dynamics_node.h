@@ -28,10 +28,11 @@ namespace endovascular_sim::nodes
  *
  *  In real time a step begins with each slot of the steady clock. A late step starts at once, and the slots keep their
  *  times: the simulation catches up. Without a response of the contact node, steps use the stale contact set. After the
- *  parameter `pause_after` the simulation pauses and continues, with new slots, at the next response. In the other
- *  paces the steps follow each other, or the calls of simulation/step; they wait for the contact node, and for the
- *  recorder if it lags behind. Whenever no step is taken, the rendered force ramps to zero. The node ends when
- *  vessel_server ends, because the deformed wall is lost with it. */
+ *  parameter `pause_after` the simulation pauses and continues, with new slots, at the next response. A step that needs
+ * the flow of blood is not taken before it has been computed. In the other paces the steps follow each other, or the
+ * calls of simulation/step; they wait for the contact node, and for the recorder if it lags behind. Whenever no step is
+ * taken, the rendered force ramps to zero. The node ends when vessel_server ends, because the deformed wall is lost
+ * with it. */
 class RodDynamicsNode
 {
 public:
@@ -69,6 +70,7 @@ private:
   std::string refusalOf(const StepSimulation::Request& request) const;
   std::string takeSteps(std::uint32_t steps);
   std::string waitForClearance();
+  void continueRecording(ContinueRecording::Response& response);
   void announceRun(const std::string& state, std::uint64_t previous_steps);
   std::string beginRun(const std::string& state, std::uint64_t previous_steps);
 
@@ -84,7 +86,8 @@ private:
   StepStatistics statistics_;
   RecorderProgress recorder_;
   ros::Publisher run_publisher_;
-  std::uint32_t run_ = 0;  ///< number of the run
+  std::uint32_t run_ = 0;        ///< number of the run
+  std::uint64_t run_began_ = 0;  ///< number of steps before the first one of the run
   StepHold hold_;
   StepObstacles obstacles_;
   std::unique_ptr<StepObserver> observer_;

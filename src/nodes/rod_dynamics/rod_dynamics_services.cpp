@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "common/error.h"
+#include "common/text/format.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "nodes/rod_dynamics/rod_dynamics_node.h"
 #include "nodes/runtime/node_program.h"
@@ -28,7 +29,8 @@ SimulationServices::Operations RodDynamicsNode::operations()
           [this](const std::string& state, const std::string& origin) { return continueFrom(state, origin); },
           [this](std::uint32_t step) { return goToStep(step); },
           [this](const StepSimulation::Request& request, StepSimulation::Response& response)
-          { stepByClient(request, response); }};
+          { stepByClient(request, response); },
+          [this](ContinueRecording::Response& response) { continueRecording(response); }};
 }
 
 std::string RodDynamicsNode::pauseByClient()
@@ -77,10 +79,36 @@ void RodDynamicsNode::announceRun(const std::string& state, std::uint64_t previo
   SimulationRun run;
   run.header.stamp = simulation_.clock().stamp(simulation_.simulation().steps());
   run.run = ++run_;
-  run.first_step = simulation_.simulation().steps();
+  run.first_step = run_began_ = simulation_.simulation().steps();
   run.previous_steps = previous_steps;
   run.state.assign(state.begin(), state.end());
   run_publisher_.publish(run);
+  simulation_.publishControls(run_);
+}
+
+/** Fills the response with the present run and its state, before the next step. The steps before it are published
+ * first, so that a group of steps begins there. */
+void RodDynamicsNode::continueRecording(ContinueRecording::Response& response)
+{
+  simulation_.publishWaitingSteps();
+  SimulationRun& run = response.run;
+  run.header.stamp = simulation_.clock().stamp(simulation_.simulation().steps());
+  run.run = run_;
+  run.first_step = run.previous_steps = simulation_.simulation().steps();
+  run.continued = 1;
+  response.run_began = run_began_;
+  try
+  {
+    const std::string state = simulation_.save();
+    run.state.assign(state.begin(), state.end());
+    response.success = 1;
+  }
+  catch (const InputError& error)
+  {
+    response.success = 0;
+    response.message = error.what();
+    ROS_WARN("a further recording begins without a state: %s", error.what());
+  }
 }
 
 /** Announces a run, and waits until the recorder has closed its recording and begun the next one.
@@ -99,7 +127,7 @@ std::string RodDynamicsNode::beginRun(const std::string& state, std::uint64_t pr
     sleepUntil(Clock::now() + StepScheduler::period(1e-3));
   }
   simulation_.publishBeginning();
-  return "run " + std::to_string(run_) + " begins at step " + std::to_string(simulation_.simulation().steps());
+  return formatted("run %u begins at %.1f s", run_, simulation_.simulation().time());
 }
 
 void RodDynamicsNode::stepByClient(const StepSimulation::Request& request, StepSimulation::Response& response)
@@ -156,7 +184,7 @@ std::string RodDynamicsNode::waitForClearance()
   while (!reason.empty() && Clock::now() < end && !isOver())
   {
     hold_.begin(0.0);
-    hold_.announce(reason, StepObstacles::isContactLost(reason));
+    hold_.announce(reason, StepObstacles::isFault(reason));
     hold_.publish();
     countProgress();
     sleepUntil(Clock::now() + StepScheduler::period(1e-3));

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nodes/conversions/contact_conversions.h"
+#include "instrument/instrument.h"
+#include "nodes/conversions/rod_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/rod_dynamics/instruments/instrument_observation.h"
 #include "nodes/runtime/ros_names.h"
-#include "results/run_result.h"
 #include "simulation/instrument_tip.h"
 #include "simulation/local_deformable_wall.h"
 
@@ -40,6 +40,9 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pac
   applied_message_.hand_force.resize(scene.instruments.size());
   applied_message_.hand_torque.resize(scene.instruments.size());
   visual_message_.header.frame_id = names::kPatientFrame;
+  for (const scene::DrivenInstrument& driven : scene.instruments)
+    frames_.push_back(
+        scene.flow && instrument::pressureLineOf(driven.instrument) ? driven.instrument.name + names::kTipFrameOf : "");
 }
 
 void RodPublisher::publishStep(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands,
@@ -58,7 +61,7 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
   if (treatment_ && (is_visual || is_event))
     publishTreatment(simulation);
   if (is_visual)
-    publishTip(simulation);
+    publishTips(simulation);
 }
 
 void RodPublisher::publishApplied(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands)
@@ -101,40 +104,9 @@ void RodPublisher::reset()
 
 void RodPublisher::publishVisual(const simulation::Simulation& simulation)
 {
-  const rod::State& state = simulation.state();
-  const rod::Discretisation& wire = simulation.discretisation();
-  RodStateVisual& message = visual_message_;
-  message.header.stamp = now_;
-  message.step = simulation.steps() - 1;
-  message.time = simulation.time();
-  message.insertion.clear();
-  message.rotation.clear();
-  message.tip_rotation.clear();
-  message.hand_force.clear();
-  message.hand_torque.clear();
-  message.pressure.clear();
-  for (int k = 0; k < simulation.instruments(); ++k)
-  {
-    const simulation::HandState hand = simulation.hand(k);
-    message.insertion.push_back(hand.insertion);
-    message.rotation.push_back(hand.rotation);
-    message.tip_rotation.push_back(simulation::tipRotation(simulation, k));
-    message.hand_force.push_back(hand.force);
-    message.hand_torque.push_back(hand.torque);
-    message.pressure.push_back(hand.pressure);
-  }
-  const int first = results::firstInsertedNode(simulation);
-  message.first_node = static_cast<std::uint32_t>(first);
-  message.nodes.clear();
-  message.radius.clear();
-  message.contact_force.clear();
-  for (int i = first; i < wire.nodes(); ++i)
-  {
-    message.nodes.push_back(toPoint(state.position[i]));
-    message.radius.push_back(wire.radius[i]);
-    message.contact_force.push_back(toVector(state.wall_force[i]));
-  }
-  visual_.publish(message);
+  visual_message_.header.stamp = now_;
+  toMessage(simulation, visual_message_);
+  visual_.publish(visual_message_);
 }
 
 void RodPublisher::publishTreatment(const simulation::Simulation& simulation)
@@ -147,13 +119,22 @@ void RodPublisher::publishTreatment(const simulation::Simulation& simulation)
   treatment_.publish(treatment_message_);
 }
 
-void RodPublisher::publishTip(const simulation::Simulation& simulation)
+void RodPublisher::publishTips(const simulation::Simulation& simulation)
 {
-  const geometry_msgs::Pose tip = tipPose(simulation, static_cast<std::size_t>(simulation.state().reference));
+  publishTip(simulation, static_cast<std::size_t>(simulation.state().reference), names::kTipFrame);
+  for (std::size_t k = 0; k < frames_.size(); ++k)
+    if (!frames_[k].empty())
+      publishTip(simulation, k, frames_[k]);
+}
+
+void RodPublisher::publishTip(const simulation::Simulation& simulation, std::size_t instrument,
+                              const std::string& frame)
+{
+  const geometry_msgs::Pose tip = tipPose(simulation, instrument);
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = now_;
   transform.header.frame_id = names::kPatientFrame;
-  transform.child_frame_id = names::kTipFrame;
+  transform.child_frame_id = frame;
   transform.transform.translation.x = tip.position.x;
   transform.transform.translation.y = tip.position.y;
   transform.transform.translation.z = tip.position.z;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <ros/ros.h>
@@ -42,10 +44,12 @@ private:
   void publishApplied(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands);
   void publishVisual(const simulation::Simulation& simulation);
   void publishTreatment(const simulation::Simulation& simulation);
-  void publishTip(const simulation::Simulation& simulation);
+  void publishTips(const simulation::Simulation& simulation);
+  void publishTip(const simulation::Simulation& simulation, std::size_t instrument, const std::string& frame);
 
-  std::uint64_t visual_period_;  ///< interval of the data for display, number of steps of a group [steps]
-  std::uint64_t last_step_;      ///< last step of the scene's duration
+  std::uint64_t visual_period_;      ///< interval of the data for display, number of steps of a group [steps]
+  std::uint64_t last_step_;          ///< last step of the scene's duration
+  std::vector<std::string> frames_;  ///< of the tip of each instrument; empty unless its pressure is published
   ros::Publisher applied_, group_, visual_, treatment_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Time now_;  ///< time of the last step

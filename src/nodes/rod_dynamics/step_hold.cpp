@@ -26,12 +26,12 @@ void StepHold::begin(double patience)
   since_ = next_ = Clock::now() + StepScheduler::period(patience);
 }
 
-void StepHold::announce(const std::string& reason, bool is_contact_lost)
+void StepHold::announce(const std::string& reason, bool is_fault)
 {
   if (reason == reason_)
     return;
   reason_ = reason;
-  statistics_.setHeld(reason, is_contact_lost);
+  statistics_.setHeld(reason, is_fault);
   simulation_.setState(reason.empty() ? drive::OperatingState::kEnabled : drive::OperatingState::kPaused, reason);
   const auto step = static_cast<unsigned long>(simulation_.simulation().steps());
   if (reason.empty())

@@ -28,8 +28,8 @@ public:
 
   /** Announces the reason of the hold when it is another one than before.
    *  @param reason empty while the simulation waits for calls
-   *  @param is_contact_lost true for a reason that the contact node causes */
-  void announce(const std::string& reason, bool is_contact_lost);
+   *  @param is_fault true for a reason that another node causes */
+  void announce(const std::string& reason, bool is_fault);
 
   /** Publishes the commands of the last step when they are due. */
   void publish();

@@ -13,9 +13,11 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t kMostAhead = 5000;  ///< lead before the recorder: half of its queue [steps]
-constexpr double kBriefWait = 1.0;          ///< wait for the recorder that is no pause [s]
+constexpr double kBriefWait = 1.0;          ///< wait for the recorder or the flow that is no pause [s]
+constexpr double kSlice = 0.01;             ///< duration of one wait for the flow [s]
 constexpr auto kPausedByClient = "paused by simulation/pause; continues with simulation/resume";
 constexpr auto kContactLost = "no response of the contact node or of the vessel server behind it";
+constexpr auto kFlowLost = "hemodynamics does not respond";
 constexpr auto kRecorderBehind = "the recorder lags behind; continues when it has caught up";
 
 }  // namespace
@@ -30,14 +32,16 @@ std::string StepObstacles::find(bool is_held)
 {
   if (is_paused_)
     return kPausedByClient;
-  if (isContactMissing())
+  if (isContactMissing() || simulation_.needsWall())
     return kContactLost;
+  if (isFlowMissing(is_held))
+    return kFlowLost;
   return isRecorderBehind(is_held) ? kRecorderBehind : "";
 }
 
-bool StepObstacles::isContactLost(const std::string& reason)
+bool StepObstacles::isFault(const std::string& reason)
 {
-  return reason == kContactLost;
+  return reason == kContactLost || reason == kFlowLost;
 }
 
 bool StepObstacles::isContactSilent() const
@@ -61,6 +65,26 @@ bool StepObstacles::isContactMissing()
     simulation_.contacts()->startListening();
   is_listening_ = true;
   return !simulation_.contacts()->probe();
+}
+
+/** Waits for the flow as long as the hand does not notice it, and at the beginning of a run, where several beats are
+ * computed. A request without an answer is repeated. */
+bool StepObstacles::isFlowMissing(bool is_held)
+{
+  has_waited_ = false;
+  if (!simulation_.needsFlow() || simulation_.flow()->isReady())
+    return false;
+  const bool is_first = simulation_.simulation().blood()->field() == nullptr;
+  const double patience = is_held ? 0.0 : pace_ == Pace::kRealTime && !is_first ? pause_after_ : kBriefWait;
+  const Clock::time_point end = Clock::now() + StepScheduler::period(patience);
+  while (!simulation_.flow()->waitForAnswer(is_held ? 0.0 : kSlice))
+  {
+    if (Clock::now() >= end || is_over_())
+      return true;
+    countProgress();
+  }
+  has_waited_ = is_first;
+  return false;
 }
 
 /** Outside of real time nothing but the recorder limits the rate of the steps: its queues must not overflow. A brief

@@ -20,6 +20,15 @@ public:
   {
   }
 
+  /** Skips bytes; where there are fewer, the position does not change.
+   *  @throws ros::Exception then */
+  std::uint8_t* advance(std::uint32_t size)
+  {
+    if (size > getLength())
+      ros::serialization::throwStreamOverrun();
+    return IStream::advance(size);
+  }
+
   template <typename T>
   void next(T& value)
   {

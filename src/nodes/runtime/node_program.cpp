@@ -9,6 +9,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 
 #include "common/error.h"
 #include "nodes/runtime/diagnostics_publication.h"
@@ -28,6 +29,20 @@ void requestStop(int /*signal*/)
 {
   stop_requested = true;
   ros::requestShutdown();  // sets a flag, as the handler of ROS does
+}
+
+/** Makes a shutdown by another node (`rosnode kill`, shutDownNode()) act as SIGINT: the node ends its work before ROS
+ * does. */
+void followShutdownCalls()
+{
+  ros::XMLRPCManager& manager = *ros::XMLRPCManager::instance();
+  manager.unbind("shutdown");
+  manager.bind("shutdown",
+               [](XmlRpc::XmlRpcValue& /*request*/, XmlRpc::XmlRpcValue& response)
+               {
+                 response = ros::xmlrpc::responseInt(1, "", 0);
+                 requestStop(SIGINT);
+               });
 }
 
 std::atomic<unsigned long>& progressCounter()
@@ -161,6 +176,7 @@ int runNode(int argc, char** argv, const NodeProgram& program,
   std::signal(SIGINT, requestStop);
   ProcessScheduling scheduling(program);  // ROS starts its threads with the node handle: they inherit the processors
   ros::NodeHandle node;
+  followShutdownCalls();
   try
   {
     const bool succeeded = run(node, [&scheduling] { return scheduling.request(); });

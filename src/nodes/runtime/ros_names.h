@@ -7,7 +7,8 @@ namespace endovascular_sim::nodes::names
 {
 
 // Parameters in the namespace of the graph, read by every node.
-constexpr auto kSceneParameter = "scene";  ///< path of the scene file
+constexpr auto kSceneParameter = "scene";           ///< path of the scene file
+constexpr auto kSceneTextParameter = "scene_text";  ///< text of a recorded scene, in place of the path
 constexpr auto kOverridesParameter =
     "overrides";  ///< changed values of the scene: "key.path=value", separated by spaces
 
@@ -15,6 +16,7 @@ constexpr auto kOverridesParameter =
 constexpr auto kPatientFrame = "patient";
 constexpr auto kIntroducerFrame = "introducer";
 constexpr auto kTipFrame = "wire_tip";
+constexpr auto kTipFrameOf = "_tip";  ///< after the name of an instrument with a pressure line
 constexpr auto kXRaySourceFrame = "x_ray_source_optical";
 constexpr auto kXRaySourceViewFrame = "x_ray_source_view_optical";
 
@@ -48,8 +50,23 @@ constexpr auto kSessionInfo = "session/info";
 constexpr auto kSessionSample = "session/sample";
 constexpr auto kSessionSteps = "session/steps";
 constexpr auto kSessionEnd = "session/end";  ///< in recordings only
+constexpr auto kSessionGap = "session/gap";  ///< in recordings only
+constexpr auto kSessionStart = "session/start";
 constexpr auto kSessionStop = "session/stop";
+constexpr auto kSessionMark = "session/mark";  ///< service, and topic of its remarks
 constexpr auto kSessionProgress = "session/progress";
+constexpr auto kSessionVerdict = "session/verdict";
+constexpr auto kExpertResults = "expert_results";  ///< parameter: folder of the expert's results
+constexpr auto kShowExpert = "expert/show";        ///< plays the expert's recording alone
+constexpr auto kAlignExpert = "expert/align";
+constexpr auto kExpertState = "expert/state";
+constexpr auto kExpertVisual = "expert/state_visual";
+constexpr auto kExpertTreatment = "expert/treatment_visual";
+constexpr auto kExpertScene = "expert/scene";
+constexpr auto kSetSubject = "session/set_subject";
+
+constexpr auto kPlayerState = "player/state";
+constexpr auto kPlayerControl = "player/control";
 
 constexpr auto kClock = "/clock";
 constexpr auto kSimulationRun = "simulation/run";
@@ -58,6 +75,7 @@ constexpr auto kSimulationResume = "simulation/resume";
 constexpr auto kSimulationReset = "simulation/reset";
 constexpr auto kSimulationSave = "simulation/save_state";
 constexpr auto kSimulationLoad = "simulation/load_state";
+constexpr auto kContinueRecording = "simulation/continue_recording";
 constexpr auto kSimulationStep = "simulation/step";
 
 constexpr auto kFluoroscopyRaw = "fluoroscopy/image_raw";
@@ -68,11 +86,21 @@ constexpr auto kSourceViewImage = "fluoroscopy/source_view/image";
 constexpr auto kSourceViewCameraInfo = "fluoroscopy/source_view/camera_info";
 constexpr auto kCArmCommand = "fluoroscopy/c_arm";
 
+constexpr auto kFlowRequest = "hemodynamics/request";
+constexpr auto kFlowAnswer = "hemodynamics/answer";
+constexpr auto kFlowNetwork = "hemodynamics/network";
+constexpr auto kBloodFlow = "hemodynamics/flow";
+constexpr auto kHeartPhase = "hemodynamics/phase";
+constexpr auto kTipPressure = "hemodynamics/tip_pressure";
+constexpr auto kHemodynamicControls = "hemodynamics/controls";
+constexpr auto kSetHemodynamics = "hemodynamics/set";
+
 constexpr auto kSensors = "sensors/";  ///< followed by the name of the sensor
 
 constexpr auto kDiagnostics = "/diagnostics";
 
-constexpr auto kRobotDescription = "robot_description";  ///< parameter with the text of the robot's URDF
+constexpr auto kRobotDescription = "robot_description";       ///< parameter with the text of the robot's URDF
+constexpr auto kRobotDescriptionTopic = "robot/description";  ///< the same text, for recordings
 constexpr auto kRobotJointStates = "robot/joint_states";
 
 // CRTK names below "instruments/<name>/", "haptic/<channel>/" and "robot/".

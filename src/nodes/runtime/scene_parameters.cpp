@@ -2,6 +2,7 @@
 
 #include <iterator>
 #include <sstream>
+#include <vector>
 
 #include <ros/console.h>
 
@@ -12,14 +13,31 @@
 namespace endovascular_sim::nodes
 {
 
+namespace
+{
+
+std::vector<std::string> overridesFrom(const ros::NodeHandle& node)
+{
+  std::istringstream words(node.param<std::string>(names::kOverridesParameter, ""));
+  return {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()};
+}
+
+}  // namespace
+
 scene::Scene sceneFromParameters(const ros::NodeHandle& node)
 {
-  std::string file;
+  std::string file, text;
+  if (!node.hasParam(names::kSceneParameter) && node.getParam(names::kSceneTextParameter, text) && !text.empty())
+    return scene::parseRecordedScene(text, node.resolveName(names::kSceneTextParameter));
   if (!node.getParam(names::kSceneParameter, file))
     throw InputError("parameter server", node.resolveName(names::kSceneParameter),
                      "missing; set it to the path of a scene file, e.g. with roslaunch endovascular_sim sim.launch");
-  std::istringstream words(node.param<std::string>(names::kOverridesParameter, ""));
-  return scene::loadScene(file, {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()});
+  return scene::loadScene(file, overridesFrom(node));
+}
+
+std::string subjectFromParameters(const ros::NodeHandle& node)
+{
+  return scene::recordSubject(node.param<std::string>(names::kSceneParameter, ""), overridesFrom(node));
 }
 
 scene::Scene sceneWithLoggedWarnings(const ros::NodeHandle& node)

@@ -1,5 +1,6 @@
 #include "nodes/session/bag_records.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -100,6 +101,23 @@ private:
   std::map<std::string, std::string_view> fields_;
 };
 
+/** Decompresses the data of a chunk.
+ *  @param size after decompression, by the header of the chunk [B]
+ *  @throws Damage when it cannot be decompressed, or its compression is unknown */
+void decompress(const std::string& compression, std::uint64_t size, std::vector<char>& data, std::vector<char>& chunk)
+{
+  if (compression != "lz4")
+    throw Damage("unknown compression '" + compression.substr(0, 20) + "'");
+  if (size > kLargestChunk || size > kLargestRatio * (data.size() + 1))
+    throw Damage("impossible size");
+  chunk.resize(size);
+  auto written = static_cast<unsigned int>(size);
+  const int result =
+      roslz4_buffToBuffDecompress(data.data(), static_cast<unsigned int>(data.size()), chunk.data(), &written);
+  if (result != ROSLZ4_OK || written != size)
+    throw Damage("it cannot be decompressed");
+}
+
 /** Reader of one bag. */
 class BagReader
 {
@@ -160,6 +178,7 @@ private:
 
   void readRecord()
   {
+    record_ = at_;
     readBlock(header_);
     readBlock(data_);
     const Fields fields(std::string_view(header_.data(), header_.size()));
@@ -206,21 +225,13 @@ private:
 
   std::string_view decompressed(const std::string& compression, std::uint64_t size)
   {
-    if (compression != "lz4")
-      throw Damage("unknown compression '" + compression.substr(0, 20) + "'");
-    if (size > kLargestChunk || size > kLargestRatio * (data_.size() + 1))
-      throw Damage("impossible size");
-    chunk_.resize(size);
-    auto written = static_cast<unsigned int>(size);
-    const int result =
-        roslz4_buffToBuffDecompress(data_.data(), static_cast<unsigned int>(data_.size()), chunk_.data(), &written);
-    if (result != ROSLZ4_OK || written != size)
-      throw Damage("it cannot be decompressed");
+    decompress(compression, size, data_, chunk_);
     return {chunk_.data(), chunk_.size()};
   }
 
   void readMessages(std::string_view chunk)
   {
+    begin_of_chunk_ = chunk.data();
     while (!chunk.empty())
     {
       const Fields fields(Fields::taken(chunk));
@@ -255,6 +266,8 @@ private:
     BagMessage message = found->second;
     message.data = reinterpret_cast<const std::uint8_t*>(data.data());
     message.size = static_cast<std::uint32_t>(data.size());
+    message.chunk = record_;
+    message.offset = static_cast<std::uint32_t>(data.data() - begin_of_chunk_);
     const auto time = fields.number<std::uint64_t>("time");  // seconds, then nanoseconds, 32 bits each
     message.time = ros::Time(static_cast<std::uint32_t>(time), static_cast<std::uint32_t>(time >> 32U) % 1000000000U);
     visit_(message);
@@ -274,8 +287,10 @@ private:
   std::string file_;
   const std::function<void(const BagMessage&)>& visit_;
   std::ifstream stream_;
-  std::uint64_t size_ = 0;  ///< size of the file [B]
-  std::uint64_t at_ = 0;    ///< position in the file [B]
+  std::uint64_t size_ = 0;                ///< size of the file [B]
+  std::uint64_t at_ = 0;                  ///< position in the file [B]
+  std::uint64_t record_ = 0;              ///< position of the present record [B]
+  const char* begin_of_chunk_ = nullptr;  ///< bytes of the present chunk
   std::vector<char> header_, data_, chunk_;
   std::map<std::uint32_t, BagMessage> connections_;  ///< topic and type of every connection
   std::uint64_t index_position_ = 0;
@@ -289,6 +304,77 @@ private:
 std::string readBagMessages(const std::string& file, const std::function<void(const BagMessage&)>& visit)
 {
   return BagReader(file, visit).read();
+}
+
+namespace
+{
+
+constexpr std::size_t kKeptChunks = 48;                    ///< of a session: those of all its topics at one time
+constexpr std::uint64_t kKeptBytes = 64U * 1024U * 1024U;  ///< of all kept chunks, unless it is a single one [B]
+
+}  // namespace
+
+BagChunks::BagChunks(const std::string& file) : file_(file), stream_(file, std::ios::binary)
+{
+  if (!stream_)
+    throw InputError(file, "", "cannot be read (" + systemReason() + "); give the path of a session.bag");
+}
+
+const std::uint8_t* BagChunks::data(std::uint64_t chunk, std::uint32_t offset, std::uint32_t size)
+{
+  const std::vector<char>& bytes = chunkAt(chunk);
+  if (offset > bytes.size() || size > bytes.size() - offset)
+    throw InputError(file_, "", "has changed while it was read; open it again");
+  return reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset;
+}
+
+const std::vector<char>& BagChunks::chunkAt(std::uint64_t position)
+{
+  const auto known =
+      std::find_if(kept_.begin(), kept_.end(), [position](const Chunk& chunk) { return chunk.first == position; });
+  if (known != kept_.end())
+  {
+    kept_.splice(kept_.begin(), kept_, known);
+    return kept_.front().second;
+  }
+  try
+  {
+    std::vector<char> header, data, chunk;
+    stream_.clear();
+    stream_.seekg(static_cast<std::streamoff>(position));
+    for (std::vector<char>* block : {&header, &data})
+    {
+      std::array<char, sizeof(std::uint32_t)> length{};
+      if (!stream_.read(length.data(), length.size()) || lengthAt(length.data()) > kLargestChunk)
+        throw Damage("no record");
+      block->resize(lengthAt(length.data()));
+      if (!stream_.read(block->data(), static_cast<std::streamsize>(block->size())))
+        throw Damage("no record");
+    }
+    const Fields fields(std::string_view(header.data(), header.size()));
+    if (fields.text("compression") == "none")
+      chunk = std::move(data);
+    else
+      decompress(fields.text("compression"), fields.number<std::uint32_t>("size"), data, chunk);
+    kept_.emplace_front(position, std::move(chunk));
+  }
+  catch (const Damage&)
+  {
+    throw InputError(file_, "", "has changed while it was read; open it again");
+  }
+  std::uint64_t bytes = 0;
+  for (auto chunk = kept_.begin(); chunk != kept_.end(); ++chunk)
+  {
+    bytes += chunk->second.size();
+    if (chunk != kept_.begin() && bytes > kKeptBytes)
+    {
+      kept_.erase(chunk, kept_.end());
+      break;
+    }
+  }
+  if (kept_.size() > kKeptChunks)
+    kept_.pop_back();
+  return kept_.front().second;
 }
 
 }  // namespace endovascular_sim::nodes

@@ -11,11 +11,16 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "endovascular_sim/BloodFlow.h"
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/ContactForces.h"
+#include "endovascular_sim/FlowNetwork.h"
+#include "endovascular_sim/HeartPhase.h"
+#include "endovascular_sim/HemodynamicControls.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionEnd.h"
+#include "endovascular_sim/SessionMark.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -44,6 +49,8 @@ bool isOfThisVersion(const BagMessage& message)
       {names::kVesselMesh, &BagMessage::is<VesselMesh>},
       {names::kVesselCentreline, &BagMessage::is<VesselCentreline>},
       {names::kSimulationRun, &BagMessage::is<SimulationRun>},
+      {names::kSessionGap, &BagMessage::is<SessionGap>},
+      {names::kSessionMark, &BagMessage::is<SessionMark>},
       {names::kSessionEnd, &BagMessage::is<SessionEnd>},
       {names::kSessionSample, &BagMessage::is<SessionSample>},
       {names::kRodStateVisual, &BagMessage::is<RodStateVisual>},
@@ -52,6 +59,10 @@ bool isOfThisVersion(const BagMessage& message)
       {names::kProcedureStep, &BagMessage::is<ProcedureStep>},
       {names::kContactForces, &BagMessage::is<ContactForces>},
       {names::kContactForceMap, &BagMessage::is<ContactForceMap>},
+      {names::kHemodynamicControls, &BagMessage::is<HemodynamicControls>},
+      {names::kFlowNetwork, &BagMessage::is<FlowNetwork>},
+      {names::kBloodFlow, &BagMessage::is<BloodFlow>},
+      {names::kHeartPhase, &BagMessage::is<HeartPhase>},
   };
   for (const auto& [topic, check] : checks)
     if (isTopic(message.topic, topic))
@@ -85,6 +96,10 @@ public:
       survey_.recorded_steps = message.read<SessionEnd>()->steps;
     else if (isTopic(message.topic, names::kSimulationRun))
       addRun(*message.read<SimulationRun>());
+    else if (isTopic(message.topic, names::kSessionGap))
+      survey_.outer_gaps.push_back(*message.read<SessionGap>());
+    else if (isTopic(message.topic, names::kSessionMark))
+      ++survey_.marks;
   }
 
   /** Completes the survey after the last message. */
@@ -146,6 +161,18 @@ void examineComputation(BagSurvey& survey, bool computes)
   {
     survey.obstacle = error.what();
   }
+}
+
+/** Connection header of a message, which also tells whether its topic is latched. */
+boost::shared_ptr<ros::M_string> headerOf(const BagMessage& message)
+{
+  const auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = message.type;
+  (*header)["md5sum"] = message.md5sum;
+  (*header)["message_definition"] = message.definition;
+  if (message.is_latched)
+    (*header)["latching"] = "1";
+  return header;
 }
 
 std::string plural(std::uint64_t count, const std::string& noun)
@@ -234,7 +261,8 @@ std::uint64_t repairBag(const std::string& file, const std::string& copy)
                       content.morph(message.md5sum, message.type, message.definition, message.is_latched ? "1" : "0");
                       ros::serialization::IStream bytes(const_cast<std::uint8_t*>(message.data), message.size);
                       content.read(bytes);
-                      repaired.write(message.recorded_topic, std::max(message.time, ros::TIME_MIN), content);
+                      repaired.write(message.recorded_topic, std::max(message.time, ros::TIME_MIN), content,
+                                     headerOf(message));
                       ++messages;
                     });
     repaired.close();
@@ -252,9 +280,13 @@ nlohmann::ordered_json toJson(const BagSurvey& survey)
   json["refusal"] = survey.refusal.empty() ? Json(nullptr) : Json(survey.refusal);
   json["damage"] = survey.damage.empty() ? Json(nullptr) : Json(survey.damage);
   if (survey.info)
-    json["session"] = {{"scene", survey.info->scene_name},    {"version", survey.info->software_version},
-                       {"commit", survey.info->commit},       {"physics", survey.info->physics_number},
-                       {"time_step", survey.info->time_step}, {"continues_from_state", survey.state_bytes > 0}};
+    json["session"] = {{"scene", survey.info->scene_name},
+                       {"version", survey.info->software_version},
+                       {"commit", survey.info->commit},
+                       {"physics", survey.info->physics_number},
+                       {"time_step", survey.info->time_step},
+                       {"subject", survey.info->subject},
+                       {"continues_from_state", survey.state_bytes > 0}};
   json["steps"] = {{"number", survey.steps},
                    {"first", survey.first_step},
                    {"last", survey.last_step},
@@ -264,6 +296,11 @@ nlohmann::ordered_json toJson(const BagSurvey& survey)
   json["steps"]["gaps"] = Json::array();
   for (const StepGap& gap : survey.gaps)
     json["steps"]["gaps"].push_back({{"first", gap.first}, {"last", gap.last}});
+  json["gaps_between_bags"] = Json::array();
+  for (const SessionGap& gap : survey.outer_gaps)
+    json["gaps_between_bags"].push_back(
+        {{"first", gap.first_step}, {"last", gap.last_step}, {"previous", gap.previous}, {"next", gap.next}});
+  json["marks"] = survey.marks;
   json["uses"] = {{"show", survey.shows}, {"report", survey.reports}};
   json["uses"]["recompute_to"] = survey.recomputed_to ? Json(*survey.recomputed_to) : Json(nullptr);
   json["uses"]["obstacle"] = survey.obstacle.empty() ? Json(nullptr) : Json(survey.obstacle);
@@ -288,6 +325,12 @@ std::string textOf(const BagSurvey& survey)
                     survey.info->commit + ", physics " + std::to_string(survey.info->physics_number)
               : "no session/info";
   text += "\n  " + textOfSteps(survey) + (survey.state_bytes > 0 ? "; continues from a saved state" : "") + "\n";
+  for (const SessionGap& gap : survey.outer_gaps)
+    text += "  steps " + std::to_string(gap.first_step) + " to " + std::to_string(gap.last_step) +
+            " are in no bag: between " + (gap.previous.empty() ? "the beginning of the run" : gap.previous) + " and " +
+            gap.next + "\n";
+  if (survey.info && !survey.info->subject.empty())
+    text += "  subject: " + survey.info->subject + "\n";
   text += "  " + (survey.damage.empty() ? "no damage" : "damaged: " + survey.damage) + "\n";
   for (const auto& [name, topic] : survey.topics)
     if (topic.is_of_other_version)

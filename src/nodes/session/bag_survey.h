@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "endovascular_sim/SessionGap.h"
 #include "endovascular_sim/SessionInfo.h"
 
 namespace endovascular_sim::nodes
@@ -43,6 +44,8 @@ struct BagSurvey
   std::uint64_t disordered_steps = 0;           ///< steps that stand behind a later one
   std::optional<std::uint64_t> recorded_steps;  ///< by session/end; empty: the bag has no end
   std::vector<StepGap> gaps;
+  std::vector<SessionGap> outer_gaps;  ///< before and behind the bag, where its recording was interrupted
+  std::uint64_t marks = 0;             ///< number of remarks of a teacher
   std::uint64_t state_bytes = 0;  ///< of the saved state from which the recording continues; 0: the scene's beginning
 
   bool shows = false;                          ///< replay.launch shows the session

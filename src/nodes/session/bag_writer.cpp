@@ -9,6 +9,7 @@
 #include <ros/console.h>
 
 #include "common/output_file.h"
+#include "nodes/session/private_text.h"
 
 namespace endovascular_sim::nodes
 {
@@ -25,8 +26,11 @@ constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::uintmax_t kReserve = 64U << 20U;
 /** Written size between two checks of the free space [B]. */
 constexpr std::uint64_t kCheckInterval = 8U << 20U;
-/** Size of a chunk before compression, which is lost if the process is killed [B]. */
+constexpr std::chrono::milliseconds kSpaceInterval{500};  ///< longest time between two checks of the free space
+/** Size of a chunk before compression [B], and its longest duration. The open chunk is lost if the process is killed.
+ */
 constexpr std::uint32_t kChunkSize = 256U << 10U;
+constexpr std::chrono::milliseconds kChunkDuration{400};
 
 }  // namespace
 
@@ -41,6 +45,7 @@ BagWriter::BagWriter(const std::string& file) : file_(file)
     bag_.open(file_, rosbag::bagmode::Write);
     bag_.setCompression(rosbag::compression::LZ4);
     bag_.setChunkThreshold(kChunkSize);
+    chunk_ended_ = space_checked_ = Clock::now();
   }
   catch (const rosbag::BagException& exception)
   {
@@ -55,6 +60,21 @@ BagWriter::BagWriter(const std::string& file) : file_(file)
 BagWriter::~BagWriter()
 {
   close();
+}
+
+/** Connection header for the bag: type, hash, definition and latching. The publisher's host name is removed. */
+BagWriter::Header BagWriter::recordedHeader(const Header& header)
+{
+  Header& recorded = headers_[header];
+  if (recorded || !header)
+    return recorded;
+  recorded = boost::make_shared<ros::M_string>();
+  for (const char* field : {"callerid", "latching", "md5sum", "message_definition", "type"})
+    if (const auto found = header->find(field); found != header->end())
+      (*recorded)[field] = found->second;
+  if (const auto name = recorded->find("callerid"); name != recorded->end())
+    name->second = PrivateText::ofProcess().removedFrom(name->second);
+  return recorded;
 }
 
 void BagWriter::push(Work work)
@@ -100,6 +120,7 @@ void BagWriter::loop()
     for (const Item& item : batch)
       process(item);
     batch.clear();  // destroys the messages outside of the lock
+    watchDisk();
     if (is_last)
       return;
     lock.lock();
@@ -117,12 +138,58 @@ void BagWriter::process(const Item& item)
   errno = 0;
   try
   {
-    item.work(bag_);
-    if (item.is_message)
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ++messages_;
-    }
+    write(item);
+  }
+  catch (const rosbag::BagException& exception)
+  {
+    fail(errno == 0 ? exception.what() : writeError(file_).what());
+    closeBag();
+  }
+  catch (const std::exception& exception)
+  {
+    fail(exception.what());
+    closeBag();
+  }
+}
+
+void BagWriter::write(const Item& item)
+{
+  item.work(bag_);
+  if (!item.is_message)
+    return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++messages_;
+  }
+  chunk_has_messages_ = true;
+  if (!chunk_was_ended_)
+    return;
+  bag_.setChunkThreshold(kChunkSize);
+  chunk_was_ended_ = false;
+}
+
+/** Ends the open chunk: its messages reach the operating system, since rosbag then rewrites the chunk's header, which
+ *  flushes its buffer. The threshold 0 also makes the next message a chunk, which empties rosbag's copy of the chunk.
+ */
+void BagWriter::endChunk()
+{
+  bag_.setChunkThreshold(0);
+  chunk_was_ended_ = true;
+  chunk_has_messages_ = false;
+  chunk_ended_ = Clock::now();
+}
+
+/** Ends a chunk and examines the free space when it is time. */
+void BagWriter::watchDisk()
+{
+  if (!bag_open_)
+    return;
+  const Clock::time_point now = Clock::now();
+  errno = 0;
+  try
+  {
+    if (chunk_has_messages_ && now - chunk_ended_ > kChunkDuration)
+      endChunk();
   }
   catch (const rosbag::BagException& exception)
   {
@@ -130,19 +197,13 @@ void BagWriter::process(const Item& item)
     closeBag();
     return;
   }
-  catch (const std::exception& exception)
-  {
-    fail(exception.what());
-    closeBag();
+  if (now - space_checked_ < kSpaceInterval && bag_.getSize() < bytes_at_check_ + kCheckInterval)
     return;
-  }
-  if (bag_open_ && bag_.getSize() >= bytes_at_check_ + kCheckInterval)
-  {
-    bytes_at_check_ = bag_.getSize();
-    checkSpace();
-    if (!error().empty())
-      closeBag();
-  }
+  space_checked_ = now;
+  bytes_at_check_ = bag_.getSize();
+  checkSpace();
+  if (!error().empty())
+    closeBag();
 }
 
 void BagWriter::checkSpace()

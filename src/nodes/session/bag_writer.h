@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -18,9 +20,10 @@ namespace endovascular_sim::nodes
 
 /** Writer of a bag and other files of a session, in its own thread: a slow disk does not delay messages.
  *
- *  The bag is compressed with LZ4. The queue is bounded; messages that do not fit are dropped and counted. Before the
- *  disk is full the bag is closed, while there is space for its index. From then on, and after a failed write, all
- *  messages are dropped, and error() holds the reason of the operating system. */
+ *  The bag is compressed with LZ4. Its chunks are closed at least twice a second: a killed process loses no more. The
+ * queue is bounded; messages that do not fit are dropped and counted. Before the disk is full the bag is closed, while
+ * there is space for its index. From then on, and after a failed write, all messages are dropped, and error() holds the
+ * reason of the operating system. Connections are written without host names (PrivateText). */
 class BagWriter
 {
 public:
@@ -42,8 +45,8 @@ public:
   template <typename Message>
   void write(const std::string& topic, ros::Time time, const ros::MessageEvent<Message const>& event)
   {
-    push([topic, time, event](rosbag::Bag& bag)
-         { bag.write(topic, valid(time), *event.getConstMessage(), event.getConnectionHeaderPtr()); });
+    push([topic, time, message = event.getConstMessage(), header = recordedHeader(event.getConnectionHeaderPtr())](
+             rosbag::Bag& bag) { bag.write(topic, valid(time), *message, header); });
   }
 
   /** Queues a message of this process. Does not block. @param time time of the message in the bag */
@@ -53,19 +56,24 @@ public:
     push([topic, time, message](rosbag::Bag& bag) { bag.write(topic, valid(time), *message); });
   }
 
-  /** Queues a message of this process on a latched topic. Does not block. */
+  /** Queues a message of this process on a latched topic. Does not block. @param time of the message in the bag */
   template <typename Message>
-  void writeLatched(const std::string& topic, const Message& message)
+  void writeLatched(const std::string& topic, const Message& message, ros::Time time = ros::Time::now())
   {
     const auto copy = boost::make_shared<Message>(message);
+    push([topic, copy, time](rosbag::Bag& bag) { bag.write(topic, valid(time), *copy, latchedHeader<Message>()); });
+  }
+
+  /** Connection header of a latched topic. A given header replaces the one that rosbag would write. */
+  template <typename Message>
+  static boost::shared_ptr<ros::M_string> latchedHeader()
+  {
     const auto header = boost::make_shared<ros::M_string>();
-    // A given header replaces the complete header that rosbag would write for the topic.
     (*header)["latching"] = "1";
     (*header)["type"] = ros::message_traits::datatype<Message>();
     (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
     (*header)["message_definition"] = ros::message_traits::definition<Message>();
-    const ros::Time now = ros::Time::now();
-    push([topic, copy, header, now](rosbag::Bag& bag) { bag.write(topic, valid(now), *copy, header); });
+    return header;
   }
 
   /** Queues other work of the thread, for example an image to write; it does not count as a message. */
@@ -86,16 +94,22 @@ private:
   static ros::Time valid(ros::Time time) { return std::max(time, ros::TIME_MIN); }
 
   using Work = std::function<void(rosbag::Bag&)>;
+  using Clock = std::chrono::steady_clock;
+  using Header = boost::shared_ptr<ros::M_string>;
   struct Item
   {
     Work work;
     bool is_message = false;
   };
 
+  Header recordedHeader(const Header& header);
   void push(Work work);
   void enqueue(Item item);
   void loop();
   void process(const Item& item);
+  void write(const Item& item);
+  void endChunk();
+  void watchDisk();
   void checkSpace();
   void fail(const std::string& reason);
   std::string folder() const;
@@ -103,8 +117,14 @@ private:
 
   std::string file_;
   rosbag::Bag bag_;
-  bool bag_open_ = true;              ///< used by the thread, then by close()
-  std::uint64_t bytes_at_check_ = 0;  ///< used by the thread
+  std::map<Header, Header> headers_;  ///< recorded headers by the received ones; used by the caller's thread
+  // Used by the thread, then by close().
+  bool bag_open_ = true;
+  bool chunk_has_messages_ = false;
+  bool chunk_was_ended_ = false;      ///< true: the threshold of a chunk must be restored after the next message
+  Clock::time_point chunk_ended_;     ///< end of the last chunk
+  Clock::time_point space_checked_;   ///< last check of the free space
+  std::uint64_t bytes_at_check_ = 0;  ///< size of the bag then [B]
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace endovascular_sim::nodes
 {
@@ -28,6 +29,24 @@ void rename(std::string& text, const Renaming (&renamings)[size])
   }
 }
 
+/** Separator between the fields of a message and the definitions of their types. */
+constexpr auto kSeparator = "====";
+
+/** Definitions of a text: that of the message, then those of the types of its fields. */
+std::vector<std::string> sections(const std::string& definition)
+{
+  std::vector<std::string> parts(1);
+  std::istringstream lines(presentFields(definition));
+  for (std::string line; std::getline(lines, line);)
+  {
+    if (line.rfind(kSeparator, 0) == 0)
+      parts.emplace_back();
+    else
+      parts.back() += line + '\n';
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::string presentTopic(std::string topic)
@@ -49,6 +68,16 @@ std::string presentFields(const std::string& definition)
       fields += line + '\n';
   }
   return fields;
+}
+
+bool hasFirstFields(const std::string& recorded, const std::string& present)
+{
+  const std::vector<std::string> old = sections(recorded);
+  const std::vector<std::string> now = sections(present);
+  if (old.front().empty() || now.front().rfind(old.front(), 0) != 0)
+    return false;
+  return std::all_of(old.begin() + 1, old.end(),
+                     [&](const std::string& type) { return std::find(now.begin() + 1, now.end(), type) != now.end(); });
 }
 
 }  // namespace endovascular_sim::nodes

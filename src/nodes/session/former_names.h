@@ -13,4 +13,9 @@ std::string presentTopic(std::string topic);
  *  contains. Messages with equal fields have equal bytes. */
 std::string presentFields(const std::string& definition);
 
+/** Reports whether the fields of a recorded definition are the first ones of a present definition, because later
+ * versions appended further ones. The definitions of the types of the fields must be equal. Former names of fields
+ * count as the present ones. */
+bool hasFirstFields(const std::string& recorded, const std::string& present);
+
 }  // namespace endovascular_sim::nodes

@@ -19,7 +19,18 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-constexpr std::size_t kMostSteps = 100000;  // between two samples; more are those of a session without samples
+constexpr std::uint32_t kMostLacking = 1000;  // steps of a procedure in one gap
+constexpr std::size_t kMostSteps = 100000;    // between two samples; more are those of a session without samples
+
+/** Record of a step of the procedure that began and ended in a gap of the recording, before a recorded one. */
+procedure::StepRecord lackingStep(const ProcedureStep& next)
+{
+  procedure::StepRecord record;
+  record.name = "not recorded";
+  record.begin = record.end = next.begin;
+  record.outcome = procedure::Progress::kDone;
+  return record;
+}
 
 }  // namespace
 
@@ -51,6 +62,9 @@ void MetricsRecorder::begin()
   for (results::Sample& sample : early_samples_)
     metrics_->add(std::move(sample));
   early_samples_.clear();
+  for (const flow::BeatMeans& beat : early_beats_)
+    metrics_->addBeat(beat);
+  early_beats_.clear();
 }
 
 void MetricsRecorder::add(const SessionSample& message)
@@ -66,6 +80,22 @@ void MetricsRecorder::add(const SessionSample& message)
     early_samples_.push_back(std::move(sample));
 }
 
+void MetricsRecorder::add(const HeartPhase& heart)
+{
+  if (!scene_.flow)
+    return;
+  flow::BeatMeans beat;
+  beat.root = heart.mean_root_pressure;
+  beat.readings = heart.mean_readings;
+  beat.lesions = heart.mean_lesion_pressures;
+  beat.hyperaemia = heart.mean_hyperaemia != 0;
+  beat.step = heart.mean_step;
+  if (metrics_)
+    metrics_->addBeat(beat);
+  else if (early_beats_.empty() || early_beats_.back().step != beat.step)
+    early_beats_.push_back(beat);
+}
+
 void MetricsRecorder::add(const DriveApplied& drive)
 {
   if (drive.step < sampled_steps_ || drive.step >= steps_ || since_sample_.size() >= kMostSteps)
@@ -79,6 +109,9 @@ void MetricsRecorder::add(const ProcedureStep& step)
 {
   if (step.step >= steps_)
     return;
+  if (may_lack_steps_ && step.begun < procedure_steps_.size() + kMostLacking)
+    while (procedure_steps_.size() + 1 < step.begun)
+      procedure_steps_.push_back(lackingStep(step));
   if (procedure_steps_.size() + 1 == step.begun)
     procedure_steps_.push_back(fromMessage(step));
   else if (procedure_steps_.size() == step.begun && !procedure_steps_.empty())
@@ -149,15 +182,34 @@ std::vector<results::SessionError> MetricsRecorder::errors() const
   return errors;
 }
 
+std::vector<std::pair<double, std::string>> MetricsRecorder::wrongBranches() const
+{
+  std::vector<std::pair<double, std::string>> entries;
+  if (!metrics_)
+    return entries;
+  metrics_->setSteps(procedure_steps_, failure_);
+  for (const results::WrongBranch& stay : metrics_->wrongBranches())
+    entries.emplace_back(stay.begin, scene_.instruments[static_cast<std::size_t>(stay.instrument)].instrument.name +
+                                         " in " + metrics_->locator().name(stay.branch));
+  return entries;
+}
+
+std::vector<results::Mark> MetricsRecorder::marks() const
+{
+  return metrics_ ? results::lessonMarks(*metrics_) : std::vector<results::Mark>();
+}
+
 std::string MetricsRecorder::verdict() const
 {
   return metrics_ ? results::verdict(results::lessonMarks(*metrics_), results::stepsBefore(*metrics_)) : std::string();
 }
 
-void MetricsRecorder::write(const std::string& folder, const results::WallForceSummary* forces)
+void MetricsRecorder::write(const std::string& folder, const results::WallForceSummary* forces,
+                            const results::RecordingNotes& notes)
 {
   if (!metrics_)
     return;
+  metrics_->setNotes(notes);
   metrics_->setSteps(procedure_steps_, failure_);
   for (const auto& [step, peaks] : since_sample_)
     metrics_->addTail(peaks);

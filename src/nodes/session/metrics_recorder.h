@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "endovascular_sim/DriveApplied.h"
+#include "endovascular_sim/HeartPhase.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/SessionSample.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "endovascular_sim/WallDisplacement.h"
+#include "results/lesson_mark.h"
 #include "results/session_metrics.h"
 #include "scene/model/scene.h"
 
@@ -37,6 +39,8 @@ public:
   /** @throws InputError when a list does not match the instruments of the scene */
   void add(const SessionSample& sample);
   void add(const ProcedureStep& step);
+  /** Adds the mean pressures of the last beat. */
+  void add(const HeartPhase& heart);
   /** Adds the forces on the hands in a step without a fault. Those after the last sample belong to the metrics too. */
   void add(const DriveApplied& drive);
   /** Displacements before the vessel are ignored.
@@ -47,10 +51,20 @@ public:
 
   /** Evaluates the lesions and writes metrics.json, metrics.html and instruments.csv; without a vessel it does nothing.
    *  @throws InputError when a file cannot be written */
-  void write(const std::string& folder, const results::WallForceSummary* forces);
+  void write(const std::string& folder, const results::WallForceSummary* forces,
+             const results::RecordingNotes& notes = {});
+
+  /** Permits that steps of the procedure began in a gap of the recording; each has a row without values. */
+  void allowMissingSteps() { may_lack_steps_ = true; }
 
   /** Errors of the trainee so far, in the order of their times; before write() only. */
   std::vector<results::SessionError> errors() const;
+
+  /** Entries into wrong branches so far: time [s] and text, e.g. "wire in diagonal_1"; before write() only. */
+  std::vector<std::pair<double, std::string>> wrongBranches() const;
+
+  /** Marks of a lesson, after write(); empty without pass marks. */
+  std::vector<results::Mark> marks() const;
 
   /** Verdict on a lesson, after write(); empty without pass marks. */
   std::string verdict() const;
@@ -78,10 +92,12 @@ private:
   bool at_risk_ = false;                                  ///< risk of the wall at its newest displacement
   std::unique_ptr<results::SessionMetrics> metrics_;      ///< null before the vessel
   std::vector<results::Sample> early_samples_;            ///< samples before the vessel
+  std::vector<flow::BeatMeans> early_beats_;              ///< beats before the vessel
   std::uint64_t sampled_steps_ = 0;                       ///< number of steps up to the newest sample
   std::map<std::uint64_t, results::Peaks> since_sample_;  ///< for each step since then: forces on the hands
   std::vector<procedure::StepRecord> procedure_steps_;
   std::string failure_;
+  bool may_lack_steps_ = false;  ///< true after a gap of the recording
 };
 
 }  // namespace endovascular_sim::nodes

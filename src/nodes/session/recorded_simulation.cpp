@@ -67,7 +67,8 @@ struct RecordedSimulation::Contacts
   std::unique_ptr<simulation::LocalDeformableWall> wall;  ///< null without a balloon
 };
 
-RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::string& file, bool results) : file_(file)
+RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::string& file, bool results)
+  : file_(file), controls_(recording.controls)
 {
   const std::shared_ptr<const session::World> world = recordedWorld(recording, file);
   session::SessionSettings settings;
@@ -90,14 +91,23 @@ RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::s
   session_->load(recording.state, file_ + ": " + names::kSimulationRun, skip);
 }
 
+/** Sets what is not a command in the recorded input of the next step. */
+void RecordedSimulation::prepare(const DriveApplied& applied)
+{
+  if (contacts_)
+    contacts_->source.setFirstStalePass(applied.first_stale_pass);
+  const auto controls = controls_.find(simulation().steps());
+  if (controls != controls_.end() && simulation().blood() != nullptr)
+    session_->setFlowControls(controls->second);
+}
+
 void RecordedSimulation::step(const DriveApplied& applied)
 {
   const std::size_t size = applied.insertion.size();
   commands_.clear();
   for (std::size_t k = 0; k < size && applied.rotation.size() == size && applied.pressure.size() == size; ++k)
     commands_.push_back({applied.insertion[k], applied.rotation[k], applied.pressure[k]});
-  if (contacts_)
-    contacts_->source.setFirstStalePass(applied.first_stale_pass);
+  prepare(applied);
   try
   {
     session_->step(commands_);
@@ -112,8 +122,7 @@ void RecordedSimulation::step(const DriveApplied& applied)
 
 void RecordedSimulation::stepByScene(const DriveApplied& applied)
 {
-  if (contacts_)
-    contacts_->source.setFirstStalePass(applied.first_stale_pass);
+  prepare(applied);
   session_->step();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,9 +38,12 @@ public:
 private:
   struct Contacts;
 
+  void prepare(const DriveApplied& applied);
+
   std::string file_;
   std::shared_ptr<Contacts> contacts_;  ///< null without a vessel
   std::optional<session::Session> session_;
+  std::map<std::uint64_t, flow::FlowControls> controls_;  ///< of the flow of blood, by their first step
   std::vector<drive::HandCommand> commands_;
 };
 

@@ -1,5 +1,7 @@
 #include "nodes/session/recording.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -16,15 +18,30 @@ constexpr double kContactRate = 30.0;  ///< rate of contact/forces in the bag [H
 
 }  // namespace
 
-Recording::Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps_)
+Recording::Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps_, const std::string& bag_name)
   : folder(std::move(folder_)),
     steps(steps_),
+    bag(path(bag_name)),
     results(scene, folder, steps),
-    bag(path("session.bag")),
     pose(scene.record.pose_rate),
     joints(kJointRate),
-    contacts(kContactRate)
+    contacts(kContactRate),
+    heart(kHeartRate),
+    flow(kFlowRate)
 {
+}
+
+std::uint64_t nextFrame(const std::string& folder)
+{
+  std::uint64_t next = 0;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/fluoroscopy", missing))
+  {
+    unsigned long long number = 0;
+    if (std::sscanf(entry.path().filename().c_str(), "frame_%llu.png", &number) == 1)
+      next = std::max<std::uint64_t>(next, number + 1);
+  }
+  return next;
 }
 
 std::string createRecordingFolder(const std::string& folder)

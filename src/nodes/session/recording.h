@@ -1,8 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include <ros/message_event.h>
+
+#include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/RodStateVisual.h"
 #include "nodes/session/bag_writer.h"
 #include "nodes/session/session_results.h"
 #include "nodes/session/throttle.h"
@@ -11,13 +17,18 @@
 namespace endovascular_sim::nodes
 {
 
+/** Rates of hemodynamics/phase and hemodynamics/flow in bags [Hz]. */
+constexpr double kHeartRate = 50.0, kFlowRate = 10.0;
+
 /** Recording of one run: its bag and its results, in one folder. */
 struct Recording
 {
   /** @param folder_ existing folder
+   *  @param bag_name name of the bag, see RunBags
    *  @param steps_ number of steps of the session; later ones are ignored
    *  @throws InputError when a file cannot be created */
-  Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps_);
+  Recording(const scene::Scene& scene, std::string folder_, std::uint64_t steps_,
+            const std::string& bag_name = "session.bag");
 
   std::string path(const std::string& name) const { return folder + "/" + name; }
 
@@ -26,12 +37,21 @@ struct Recording
 
   std::string folder;
   std::uint64_t steps;  ///< number of steps of the session
+  BagWriter bag;        ///< before the results, whose files are not touched where no bag can be created
   SessionResults results;
-  BagWriter bag;
-  Throttle pose, joints, contacts;
-  std::uint64_t frames = 0;
-  std::string error;  ///< reason of an early end; empty without one
+  Throttle pose, joints, contacts, heart, flow;
+  std::uint64_t frames = 0;  ///< X-ray frames that have arrived
+  /** Newest state of the wires that is not recorded yet; empty without one. */
+  std::optional<ros::MessageEvent<RodStateVisual const>> newest_pose;
+  /** Newest map of the wall forces that is not recorded yet; empty without one. */
+  std::optional<ros::MessageEvent<ContactForceMap const>> newest_map;
+  double last_map = 0.0, next_map = 0.0;  ///< times of the last recorded map and of the next one [s]
+  std::vector<std::string> previous;      ///< names of the bags of the run before this one
+  std::string error;                      ///< reason of an early end; empty without one
 };
+
+/** Number of the X-ray frame after those that are saved as pictures in a folder. */
+std::uint64_t nextFrame(const std::string& folder);
 
 /** Creates the folder of a recording, which must not contain an earlier one. @return the folder
  *  @throws InputError when it cannot be created */

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/version.h"
+#include "endovascular_sim/HemodynamicControls.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SimulationRun.h"
+#include "nodes/conversions/flow_conversions.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -65,15 +68,21 @@ boost::shared_ptr<Message> readMessage(const std::string& file, const char* topi
   return message.read<Message>();
 }
 
-/** Adds a message to the content of a session.
- *  @param info set when the message is the session info */
-void addMessage(const std::string& file, const BagMessage& message, std::optional<SessionInfo>& info,
-                SessionBag& session)
+/** Parts of a bag that are put together at its end. */
+struct BagParts
+{
+  std::optional<SessionInfo> info;
+  std::uint32_t run = 0;                                         ///< number of the run
+  std::vector<boost::shared_ptr<HemodynamicControls>> controls;  ///< of this run and the one before
+};
+
+/** Adds a message to the content of a session. */
+void addMessage(const std::string& file, const BagMessage& message, BagParts& parts, SessionBag& session)
 {
   if (isTopic(message.topic, names::kSessionInfo))
   {
-    info = sessionInfo(message);
-    requireSamePhysics(file, *info);  // first, so that it is reported before differences of other messages
+    parts.info = sessionInfo(message);
+    requireSamePhysics(file, *parts.info);  // first, so that it is reported before differences of other messages
   }
   else if (isTopic(message.topic, names::kDriveApplied))
   {
@@ -88,8 +97,11 @@ void addMessage(const std::string& file, const BagMessage& message, std::optiona
   {
     const auto run = readMessage<SimulationRun>(file, names::kSimulationRun, message);
     session.first_step = run->first_step;
+    parts.run = run->run;
     session.state.assign(run->state.begin(), run->state.end());
   }
+  else if (isTopic(message.topic, names::kHemodynamicControls))
+    parts.controls.push_back(readMessage<HemodynamicControls>(file, names::kHemodynamicControls, message));
   else if (isTopic(message.topic, names::kSessionEnd))
     session.recorded_steps = readMessage<SessionEnd>(file, names::kSessionEnd, message)->steps;
 }
@@ -129,13 +141,13 @@ SessionInfo sessionInfo(const BagMessage& message)
 SessionBag readSessionBag(const std::string& file)
 {
   SessionBag session;
-  std::optional<SessionInfo> info;
+  BagParts parts;
   std::string unreadable;
   const auto add = [&](const BagMessage& message)
   {
     try
     {
-      addMessage(file, message, info, session);
+      addMessage(file, message, parts, session);
     }
     catch (const ros::Exception&)  // the bytes of the message are damaged
     {
@@ -145,10 +157,13 @@ SessionBag readSessionBag(const std::string& file)
   session.damage = readBagMessages(file, add);
   if (session.damage.empty())
     session.damage = unreadable;
-  if (!info)
+  if (!parts.info)
     throw InputError(file, names::kSessionInfo,
                      "missing; only bags of the session node can be replayed" + damageOf(session));
-  session.info = *info;
+  session.info = *parts.info;
+  for (const auto& controls : parts.controls)
+    if (controls->run == parts.run)
+      session.controls[controls->step] = fromMessage(*controls);
   requireUndamaged(file, session);
   if (session.steps.empty())
     throw InputError(file, names::kDriveApplied, "holds no step; record a session that steps" + damageOf(session));

@@ -21,6 +21,9 @@ public:
   bool run();
 
 private:
+  void endGraph() const;
+
+  bool ends_graph_;
   SessionRecorder recorder_;
 };
 

@@ -20,21 +20,6 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-results::SessionIdentity identityOf(const scene::Scene& scene)
-{
-  results::SessionIdentity identity;
-  identity.scene_name = scene.name;
-  identity.scene_file = scene.file;
-  identity.scene_hash = scene.hash();
-  identity.seed = scene.seed;
-  identity.time_step = scene.solver.time_step;
-  identity.duration = scene.duration;
-  identity.software_version = version();
-  identity.commit = commit();
-  identity.physics = kPhysicsNumber;
-  return identity;
-}
-
 /** Name of the node in the name of a diagnostic status: "rod_dynamics" in "/rod_dynamics: simulation". */
 std::string nodeOf(const std::string& status_name)
 {
@@ -60,11 +45,32 @@ bool tryTo(const Work& work)
 
 }  // namespace
 
+results::SessionIdentity identityOf(const scene::Scene& scene)
+{
+  results::SessionIdentity identity;
+  identity.scene_name = scene.name;
+  identity.scene_file = scene.file;
+  identity.scene_hash = scene.hash();
+  identity.seed = scene.seed;
+  identity.time_step = scene.solver.time_step;
+  identity.duration = scene.duration;
+  identity.software_version = version();
+  identity.commit = commit();
+  identity.physics = kPhysicsNumber;
+  return identity;
+}
+
 SessionResults::SessionResults(const scene::Scene& scene, std::string folder, std::uint64_t steps)
+  : SessionResults(scene, identityOf(scene), std::move(folder), steps)
+{
+}
+
+SessionResults::SessionResults(const scene::Scene& scene, results::SessionIdentity identity, std::string folder,
+                               std::uint64_t steps)
   : folder_(std::move(folder)),
     steps_(steps),
     has_vessel_(scene.vessel.has_value()),
-    report_(identityOf(scene)),
+    report_(std::move(identity)),
     trajectory_(path("trajectory.csv"), scene.record.trajectory_rate),
     metrics_(scene, steps)
 {
@@ -135,6 +141,22 @@ void SessionResults::add(const diagnostic_msgs::DiagnosticArray& diagnostics)
       report_.addDiagnostic(nodeOf(status.name), value.key, value.value);
 }
 
+void SessionResults::add(const SessionMark& mark)
+{
+  report_.add(results::Remark{mark.step, mark.time, mark.text});
+}
+
+/** Adds a gap once: both bags beside it hold it. */
+void SessionResults::add(const SessionGap& gap)
+{
+  const std::vector<results::RecordingGap>& known = report_.notes().gaps;
+  if (std::any_of(known.begin(), known.end(),
+                  [&](const results::RecordingGap& other) { return other.first_step == gap.first_step; }))
+    return;
+  report_.add(results::RecordingGap{gap.first_step, gap.last_step, gap.previous, gap.next});
+  metrics_.allowMissingSteps();
+}
+
 bool SessionResults::hasFinalMap() const
 {
   return !has_vessel_ || (force_map_ && force_map_->step + 1 >= steps_);
@@ -172,7 +194,7 @@ bool SessionResults::write(const results::RecordingOutcome& recording, const std
   if (force_map_)
     forces = summaryFromMessage(*force_map_);
   const bool report = tryTo([&] { writeTextFile(path("report.json"), report_.json(recording, error)); });
-  const bool metrics = tryTo([&] { metrics_.write(folder_, force_map_ ? &forces : nullptr); });
+  const bool metrics = tryTo([&] { metrics_.write(folder_, force_map_ ? &forces : nullptr, report_.notes()); });
   const bool map = tryTo([&] { writeWallForces(); });
   return rows_written && report && metrics && map;
 }

@@ -9,6 +9,8 @@
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/SessionGap.h"
+#include "endovascular_sim/SessionMark.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/session/metrics_recorder.h"
 #include "results/report.h"
@@ -17,6 +19,9 @@
 
 namespace endovascular_sim::nodes
 {
+
+/** Identity of a session of this program. */
+results::SessionIdentity identityOf(const scene::Scene& scene);
 
 /** Results of a session from the messages of the graph: trajectory.csv during the session, then report.json, the tables
  *  of the wall forces and the metrics. */
@@ -28,6 +33,9 @@ public:
    *  @throws InputError when a file cannot be written */
   SessionResults(const scene::Scene& scene, std::string folder, std::uint64_t steps);
 
+  /** Results of an earlier session. @param identity of the program that recorded it */
+  SessionResults(const scene::Scene& scene, results::SessionIdentity identity, std::string folder, std::uint64_t steps);
+
   void add(const DriveApplied& drive);
   void add(const RodStateVisual& rod);
   void add(const ContactForceMapConstPtr& map);
@@ -35,6 +43,8 @@ public:
   void add(const VesselMeshConstPtr& vessel);
   void add(const VesselCentreline& centreline);
   void add(const diagnostic_msgs::DiagnosticArray& diagnostics);
+  void add(const SessionMark& mark);
+  void add(const SessionGap& gap);
 
   MetricsRecorder& metrics() { return metrics_; }
   results::SessionReport& report() { return report_; }

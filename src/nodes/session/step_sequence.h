@@ -44,6 +44,19 @@ public:
   std::uint64_t handled() const { return handled_; }
   void setHandled(std::uint64_t steps) { handled_ = steps; }
 
+  /** Number of steps before the first one of the recording; messages of earlier steps do not belong to it. */
+  std::uint64_t first() const { return first_; }
+
+  /** Reports whether a message belongs to a step before the first one of the recording. */
+  template <typename Message>
+  bool isBefore(const Message& message) const
+  {
+    return message.step < first_;
+  }
+
+  /** Begins at a step: the next group of steps begins there. */
+  void beginAt(std::uint64_t first) { first_ = handled_ = first; }
+
   /** @throws InputError for a message that is further ahead of session/steps than its queue is long, or whose time is
    *          not that of its step */
   template <typename Message>
@@ -60,6 +73,7 @@ public:
 private:
   double time_step_;
   OneSource source_;
+  std::uint64_t first_ = 0;
   std::uint64_t handled_ = 0;
   std::uint64_t after_gap_ = 0;  ///< step after the last one that has arrived, whether or not it followed
 };

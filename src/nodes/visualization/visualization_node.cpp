@@ -112,6 +112,8 @@ VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle
                                                     [this](const VesselMesh& vessel) { receiveVessel(vessel); });
   treatment_subscriber_ = subscribeGuarded<TreatmentVisual>(
       node, names::kTreatmentVisual, 2, [this](const TreatmentVisual& message) { receiveTreatment(message); });
+  player_subscriber_ = subscribeGuarded<PlayerState>(node, names::kPlayerState, 1,
+                                                     [this](const PlayerState& player) { receivePlayer(player); });
   force_map_subscriber_ = subscribeGuarded<ContactForceMap>(
       node, names::kContactForceMap, 1, [this](const ContactForceMapConstPtr& map) { receiveForceMap(map); });
 }
@@ -124,6 +126,7 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
     // The session or the replay was restarted.
     path_.clear();
     force_scale_.reset();
+    force_scale_.follow(largest_before_);
     heat_scale_.reset();
   }
   else if (state.time - last_time_ < 1.0 / kMarkerRate - 1e-4)
@@ -150,6 +153,15 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   if (!tube.points.empty())
     wire_publisher_.publish(tube);
   drawTipPath(state.header, axis.points.back());
+}
+
+void VisualizationNode::receivePlayer(const PlayerState& player)
+{
+  if (player.jumps != jumps_)
+    path_.clear();
+  jumps_ = player.jumps;
+  largest_before_ = player.peak_node_force;
+  force_scale_.follow(largest_before_);
 }
 
 std::vector<visualization::Colour> VisualizationNode::nodeColours(const RodStateVisual& state)

@@ -10,6 +10,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/PlayerState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselMesh.h"
@@ -42,6 +43,8 @@ private:
   void receiveForceMap(const ContactForceMapConstPtr& map);
   void drawHeatMap(const ContactForceMap& map);
 
+  /** Forgets what follows from messages before a jump of a recording. */
+  void receivePlayer(const PlayerState& player);
   void drawLegend(const std_msgs::Header& header);
   double forceScale() const { return full_scale_ > 0.0 ? full_scale_ : force_scale_.full(); }
   double heatScale() const { return heat_full_scale_ > 0.0 ? heat_full_scale_ : heat_scale_.full(); }
@@ -59,11 +62,13 @@ private:
   double last_time_ = -1.0;       ///< simulated time of the drawn wire [s]
   double last_treatment_ = -1.0;  ///< simulated time of the drawn treatment [s]
   std::deque<geometry_msgs::Point> path_;
+  std::uint32_t jumps_ = 0;      ///< of the player of a recording
+  double largest_before_ = 0.0;  ///< largest force on a node up to the shown time of a recording [N]
   ros::Publisher wire_publisher_, tip_path_publisher_, balloon_publisher_, stent_publisher_, heat_publisher_,
       legend_publisher_;
   ros::Publisher vessel_publisher_;  ///< valid in a replay only
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber rod_subscriber_, vessel_subscriber_, force_map_subscriber_, treatment_subscriber_;
+  ros::Subscriber rod_subscriber_, vessel_subscriber_, force_map_subscriber_, treatment_subscriber_, player_subscriber_;
 };
 
 }  // namespace endovascular_sim::nodes

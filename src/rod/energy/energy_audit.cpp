@@ -56,6 +56,15 @@ double layerRotationChange(const State& before, const State& after, int hand)
   return handleState(after, hand).rotation - handleState(before, hand).rotation;
 }
 
+/** Motion of the surface at a node in a part [m]. */
+Eigen::Vector3d surfaceTravel(const AcceptedPart& part, int node)
+{
+  Eigen::Vector3d travel = part.after.position[node] - part.begin[node];
+  if (!part.slides.empty())
+    travel += part.slides[node].surface;
+  return travel;
+}
+
 int hands(const State& state)
 {
   return std::max<int>(1, static_cast<int>(state.layers.size()));
@@ -117,6 +126,7 @@ void EnergyAudit::addPart(const AcceptedPart& part)
   turn_balance_ = 0.0;
   addHands(part);
   addLoads(part);
+  addStream(part);
   addMotion(part);
   addPotentials(part);
   addFriction(part);
@@ -158,6 +168,20 @@ void EnergyAudit::addLoads(const AcceptedPart& part)
   sums_.pending.loads += work + torque;
   sums_.pending.turnover += std::abs(work) + std::abs(torque);
   turn_balance_ += torque;
+}
+
+/** Drag of streams along the motion of the surface. */
+void EnergyAudit::addStream(const AcceptedPart& part)
+{
+  double work = 0.0;
+  for (const NodalDrag& drag : part.input.drags)
+    if (drag.node >= part.after.first_node)
+    {
+      const Eigen::Vector3d travel = surfaceTravel(part, drag.node);
+      work += drag.force(travel, part.dt).dot(travel);
+    }
+  sums_.pending.stream += work;
+  sums_.pending.turnover += std::abs(work);
 }
 
 /** Inertia of the free nodes, damping and drag. */
@@ -241,12 +265,7 @@ void EnergyAudit::addPotentials(const AcceptedPart& part)
 void EnergyAudit::addFriction(const AcceptedPart& part)
 {
   for (int i = part.after.first_node; i < part.rod.nodes(); ++i)
-  {
-    Eigen::Vector3d motion = part.after.position[i] - part.begin[i];
-    if (!part.slides.empty())
-      motion += part.slides[i].surface;
-    sums_.pending.wall_friction += part.forces.friction[i].dot(motion);
-  }
+    sums_.pending.wall_friction += part.forces.friction[i].dot(surfaceTravel(part, i));
   double rolling = 0.0;
   for (const TwistFriction& friction : part.about_axis)
   {
@@ -295,6 +314,9 @@ void EnergyAudit::addResidual(const AcceptedPart& part, double by_free_nodes)
   for (const NodalForce& load : part.input.forces)
     if (load.node >= first)
       work -= load.force.dot(travelOf(load.node));
+  for (const NodalDrag& drag : part.input.drags)
+    if (drag.node >= first)
+      work -= drag.force(surfaceTravel(part, drag.node), part.dt).dot(travelOf(drag.node));
   sums_.pending.iteration -= work;
 }
 

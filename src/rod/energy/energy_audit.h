@@ -36,6 +36,7 @@ public:
 private:
   void addLoads(const AcceptedPart& part);
   void addHands(const AcceptedPart& part);
+  void addStream(const AcceptedPart& part);
   void addMotion(const AcceptedPart& part);
   void addPotentials(const AcceptedPart& part);
   void addChangeOfNodes(const PotentialEnergy& first, const PotentialEnergy& final);

@@ -15,6 +15,7 @@ struct EnergyBalance
   double turn = 0.0;      ///< hands, about the wire
   double loads = 0.0;     ///< external forces and torques, motion of a held distal end and of rollers
   double pressure = 0.0;  ///< balloons that widen against the wall
+  double stream = 0.0;    ///< drag of moving fluid (StepInput::drags); negative where the fluid brakes the wire
 
   // Stored since the start; a node that enters or leaves the simulated part does not count as a change.
   double kinetic = 0.0;
@@ -30,7 +31,7 @@ struct EnergyBalance
   double layer_friction = 0.0;  ///< between layers
   double valve = 0.0;           ///< valve of the introducer
   double damping = 0.0;         ///< mass-proportional
-  double drag = 0.0;            ///< of the fluid
+  double drag = 0.0;            ///< of the fluid at rest
 
   // Dissipated by the stages of the solver.
   double inertia = 0.0;     ///< backward Euler: ½ m |Δv|²
@@ -48,7 +49,7 @@ struct EnergyBalance
   double turn_error = 0.0;       ///< part of error of the equations of the twist
   double turnover = 0.0;         ///< over all steps: magnitudes of the work, and of the change of stored energy
 
-  double work() const { return push + turn + loads + pressure; }
+  double work() const { return push + turn + loads + pressure + stream; }
   double stored() const { return kinetic + bending + twist + guide + wall + gravity; }
   double dissipated() const { return wall_friction + wall_rolling + layer_friction + valve + damping + drag; }
   double numerical() const
@@ -69,11 +70,12 @@ struct BalanceTerm
 };
 
 /** All terms in the order of the struct. */
-constexpr std::array<BalanceTerm, 28> kBalanceTerms = {{
+constexpr std::array<BalanceTerm, 29> kBalanceTerms = {{
     {"push", &EnergyBalance::push},
     {"turn", &EnergyBalance::turn},
     {"loads", &EnergyBalance::loads},
     {"pressure", &EnergyBalance::pressure},
+    {"stream", &EnergyBalance::stream},
     {"kinetic", &EnergyBalance::kinetic},
     {"bending", &EnergyBalance::bending},
     {"twist", &EnergyBalance::twist},

@@ -237,6 +237,25 @@ double InsertionForces::motionDrag(int k, const LayerMotion& motion, const Layer
   return force;
 }
 
+double InsertionForces::loads(int k, const std::vector<NodalForce>& forces, const State& state)
+{
+  double against = 0.0;
+  for (const NodalForce& load : forces)
+    if (load.layer == k && load.node >= state.first_node)
+      against -= load.force.dot(tangentAt(state, load.node));
+  return against;
+}
+
+double InsertionForces::streamDrag(int k, const std::vector<NodalDrag>& drags, const LayerSlides* slides,
+                                   const State& state, double dt) const
+{
+  double force = 0.0;
+  for (const NodalDrag& drag : drags)
+    if (const int i = drag.node; i >= state.first_node && stack_.surfaceLayer(i) == k)
+      force -= drag.force(dt * state.velocity[i] + surfaceSlide(slides, i), dt).dot(tangentAt(state, i));
+  return force;
+}
+
 Eigen::Vector3d tangentAt(const State& state, int node)
 {
   const int before = std::max(state.first_node, node - 1);

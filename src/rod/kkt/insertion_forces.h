@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "rod/boundary/introducer_guide.h"
@@ -42,6 +44,14 @@ public:
   /** Inertia, damping and drag of the fluid against the motion of a layer along itself [N].
    *  @param slides null: every mass moves with its node */
   double motionDrag(int k, const LayerMotion& motion, const LayerSlides* slides, const State& state, double dt) const;
+
+  /** Forces on a layer against its insertion [N]: those of NodalForce::layer. */
+  static double loads(int k, const std::vector<NodalForce>& forces, const State& state);
+
+  /** Drag of streams on the nodes at which a layer is the outermost one [N].
+   *  @param slides null: the surface moves with the nodes */
+  double streamDrag(int k, const std::vector<NodalDrag>& drags, const LayerSlides* slides, const State& state,
+                    double dt) const;
 
 private:
   class Side;

@@ -49,6 +49,9 @@ void KktAssembly::assemble(const KktIterate& at)
     if (load.node >= system_.first)
       for (int axis = 0; axis < 3; ++axis)
         system_.rhs[system_.row(load.node) + axis] += at.dt * at.dt * load.force[axis];
+  for (const NodalDrag& drag : at.drags)
+    if (drag.node >= system_.first && !drag.coefficient.isZero(0.0))
+      addStream(drag, at);
 }
 
 /** Input of the bending of two neighbouring nodes; @p second equals @p first at the last node of an odd number. */
@@ -209,6 +212,15 @@ void KktAssembly::addNodeTerms(int node, const KktIterate& at)
     residual += resistance_.slide[node];
   for (int axis = 0; axis < 3; ++axis)
     system_.rhs[system_.row(node) + axis] -= residual[axis];
+}
+
+/** Adds the drag of a stream at the velocity at the end of the step, in which it is linear. */
+void KktAssembly::addStream(const NodalDrag& drag, const KktIterate& at)
+{
+  const int i = drag.node;
+  const Eigen::Vector3d travel = at.state.position[i] - at.begin[i] + surfaceSlide(at.slides, i);
+  addForce(i, drag.force(travel, at.dt), at.dt * at.dt);
+  addBlock(i, at.dt * drag.coefficient);
 }
 
 /** Adds a block below the diagonal; @p row lies after @p col. */

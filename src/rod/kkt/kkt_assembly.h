@@ -23,6 +23,7 @@ struct KktIterate
   const TwistAction& twist;
   const LayerSlides* slides;  ///< null: every mass moves with its node
   const std::vector<NodalForce>& forces;
+  const std::vector<NodalDrag>& drags;
   double dt;         ///< [s]
   bool first_solve;  ///< drag at the velocities of the last step; else at the motion so far
 };
@@ -70,6 +71,7 @@ private:
   template <typename Visit>
   void visitSheath(const State& state, Visit visit) const;
   void addNodeTerms(int node, const KktIterate& at);
+  void addStream(const NodalDrag& drag, const KktIterate& at);
   void addDiagonal(int node, double value);
   void addBlock(int node, const Eigen::Matrix3d& block);
   void addAcross(int row, int col, const Eigen::Matrix3d& block);

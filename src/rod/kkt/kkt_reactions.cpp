@@ -67,6 +67,10 @@ void KktReactions::updateHandParts(const KktSolution& solution, State& state)
   for (const NodalForce& force : solution.forces)
     if (force.node >= first)
       parts.load -= slide_[force.node].dot(force.force);
+  for (const NodalDrag& drag : solution.drags)
+    if (const int i = drag.node; i >= first)
+      parts.drag -= slide_[i].dot(
+          drag.force(state.position[i] - solution.begin[i] + surfaceSlide(solution.slides, i), solution.dt));
   parts.load += slide_.back().dot(state.distal_force);
   for (std::size_t k = 0; k < solution.friction.count(); ++k)
   {

@@ -26,6 +26,7 @@ struct KktSolution
   const LayerSlides* slides;  ///< null: every mass moves with its node
   const WallFriction& friction;
   const std::vector<NodalForce>& forces;
+  const std::vector<NodalDrag>& drags;
   double dt;  ///< [s]
 };
 

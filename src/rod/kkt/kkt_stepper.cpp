@@ -32,6 +32,17 @@ Discretisation rodOf(const std::vector<Layer>& layers, const std::vector<double>
   return discretise(longest->wire, position);
 }
 
+void checkDrags(const std::vector<NodalDrag>& drags, int nodes)
+{
+  int last = -1;
+  for (const NodalDrag& drag : drags)
+  {
+    if (drag.node <= last || drag.node >= nodes)
+      throw std::invalid_argument("KktStepper: drags of a stream require ascending nodes of the wire");
+    last = drag.node;
+  }
+}
+
 double scaleOf(const Discretisation& rod)
 {
   return rod.mass[static_cast<std::size_t>(rod.nodes() / 2)];
@@ -57,6 +68,7 @@ KktStepper::KktStepper(const std::vector<Layer>& layers, const std::vector<doubl
 StepReport KktStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                             contact::ContactSource* contacts, PhaseTimer& timer)
 {
+  checkDrags(input.drags, model_.rod.nodes());
   contacts_.beginStep(input, contacts, pass, timer);
   timer_ = &timer;
   motion_.resize(state.position.size());
@@ -96,8 +108,21 @@ bool KktStepper::advance(State& state, const StepInput& input, double dt, StepRe
   return false;
 }
 
+/** Upper bound of the work of streams in a step that was solved [J]. */
+double KktStepper::streamWork(const State& state, double dt) const
+{
+  double work = 0.0;
+  for (const NodalDrag& drag : last_input_.drags)
+    if (const int i = drag.node; i >= state.first_node)
+    {
+      const Eigen::Vector3d travel = state.position[i] - begin_[i] + surfaceSlide(layers_->slides(), i);
+      work += std::abs(drag.force(travel, dt).dot(travel));
+    }
+  return work;
+}
+
 /** True where a step that was accepted at the limit of solves has more energy than at its beginning and the work of the
- *  handle: a snap-through too violent for the step. */
+ *  handle and of streams: a snap-through too violent for the step. */
 bool KktStepper::gainedEnergy(const State& before, const State& state, double dt)
 {
   if (!hit_iteration_limit_)
@@ -112,7 +137,8 @@ bool KktStepper::gainedEnergy(const State& before, const State& state, double dt
     kinetic += 0.5 * model_.rod.mass[i] * state.velocity[i].squaredNorm();
     kinetic_before += 0.5 * model_.rod.mass[i] * before.velocity[i].squaredNorm();
   }
-  const double work = layers_->handleWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt);
+  const double work =
+      layers_->handleWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt) + streamWork(state, dt);
   const Energy elastic_before = energy(before);
   const Energy elastic = energy(state);
   const double allowed = kEnergyGrowth * (kinetic_before + elastic_before.bending + elastic_before.twist) + work;
@@ -236,7 +262,7 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
     friction_.lineariseWithTurns(surface);
   else
     friction_.linearise(&surface);
-  assembly_.assemble({state, begin_, twist_, slides, input.forces, dt, first_solve});
+  assembly_.assemble({state, begin_, twist_, slides, input.forces, input.drags, dt, first_solve});
 }
 
 /** Computes the motion of a system.
@@ -340,7 +366,7 @@ void KktStepper::accept(State& state, double dt)
     noteForces(dt);
   reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(),
                      assembly_.configurationalForce(), layers_->restForce(state) + assembly_.guideRestForce(state),
-                     layers_->slides(), friction_, last_input_.forces, dt},
+                     layers_->slides(), friction_, last_input_.forces, last_input_.drags, dt},
                     state);
 }
 

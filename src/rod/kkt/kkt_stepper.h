@@ -59,6 +59,7 @@ private:
   friend struct KktStepperPeer;  // of the tests
 
   bool advance(State& state, const StepInput& input, double dt, StepReport& report);
+  double streamWork(const State& state, double dt) const;
   bool gainedEnergy(const State& before, const State& state, double dt);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   void placeEnds(State& state, const StepInput& input, double dt);

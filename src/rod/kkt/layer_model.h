@@ -38,6 +38,12 @@ struct LayerSlides
   std::vector<MassSlide> mass;           ///< mean over the masses at every node
 };
 
+/** Slide of the outer surface over a node in a step [m]. @param slides null: none */
+inline Eigen::Vector3d surfaceSlide(const LayerSlides* slides, int node)
+{
+  return slides != nullptr ? slides->surface[node] : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 /** Energy that the friction between layers dissipates [J]. */
 struct LayerFrictionWork
 {

@@ -75,6 +75,8 @@ bool LayerStack::beginStep(State& state, const StepInput& input, double dt, Wall
 {
   if (input.layers.size() != state.layers.size() || state.layers.size() != motion_.size())
     throw std::invalid_argument("LayerStack: requires one insertion and rotation for every layer");
+  input_.drags = input.drags;
+  input_.forces = input.forces;
   int furthest = state.reference;
   for (int k = 0; k < stack_.count(); ++k)
     if (input.layers[k].inserted_length > input.layers[furthest].inserted_length + kTipTolerance)
@@ -414,7 +416,9 @@ void LayerStack::updateHandForces(State& state, double dt) const
     layer.hand_force = layer.force_offset;
     if (k != state.reference)
       layer.hand_force += forces_.gradient(k, state) + forces_.wedging(k, state) + forces_.wallDrag(k, state) +
-                          forces_.motionDrag(k, motion_[k], slides(), state, dt);
+                          forces_.motionDrag(k, motion_[k], slides(), state, dt) +
+                          forces_.streamDrag(k, input_.drags, slides(), state, dt) +
+                          InsertionForces::loads(k, input_.forces, state);
   }
   for (int k = 0; k < stack_.count(); ++k)
   {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace endovascular_sim::rod
 {
@@ -96,6 +97,8 @@ void MixedStepper::placePrescribedNodes(State& state, double inserted_length, do
 StepReport MixedStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                               contact::ContactSource* contacts, PhaseTimer& timer)
 {
+  if (!input.drags.empty())
+    throw std::invalid_argument("MixedStepper: this scheme has no drag of streams");
   timer_ = &timer;
   contacts_.beginStep(input, contacts, pass, timer);
   StepReport report;

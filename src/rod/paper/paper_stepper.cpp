@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "rod/boundary/reaction_forces.h"
 #include "rod/contact/contact_margins.h"
@@ -32,6 +33,8 @@ State PaperStepper::initialState(double inserted_length, double rotation) const
 StepReport PaperStepper::step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                               contact::ContactSource* contacts, PhaseTimer& timer)
 {
+  if (!input.drags.empty())
+    throw std::invalid_argument("PaperStepper: this scheme has no drag of streams");
   if (input.step != step_ || input.substep == 0)
     step_is_stale_ = false;
   source_ = contacts;

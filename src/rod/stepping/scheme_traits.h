@@ -18,6 +18,7 @@ struct SchemeTraits
   bool adaptive = false;            ///< nodes that change, see Stepper::resample()
   bool saves = false;               ///< saved states, see Stepper::archive()
   bool observes = false;            ///< e.g. energy audits, see Stepper::setObserver()
+  bool streams = false;             ///< nodes in a stream, see StepInput::drags
 };
 
 /** All schemes. The first one is the default, and has all capabilities. */

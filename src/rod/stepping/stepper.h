@@ -90,6 +90,19 @@ struct NodalForce
 {
   int node = 0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  /** Instrument of a stack on which it acts, for the forces on the hands; −1: the one inserted furthest. */
+  int layer = -1;
+};
+
+/** Drag of a stream on one node: force coefficient·(stream − v), v the velocity of the wire's surface there. */
+struct NodalDrag
+{
+  int node = 0;
+  Eigen::Matrix3d coefficient = Eigen::Matrix3d::Zero();  ///< symmetric, positive semidefinite [N·s/m]
+  Eigen::Vector3d stream = Eigen::Vector3d::Zero();       ///< velocity of the fluid [m/s]
+
+  /** Force on the node [N]. @param travel of the wire's surface in a step of @p dt [m] */
+  Eigen::Vector3d force(const Eigen::Vector3d& travel, double dt) const { return coefficient * (stream - travel / dt); }
 };
 
 /** Position of the handle of one layer at the end of a step. */
@@ -112,6 +125,9 @@ struct StepInput
   std::vector<LayerInput> layers;    ///< handles of a stack, in place of the two above; empty for one wire
   EndMotion distal;                  ///< motion of a held distal end at the end of the step
   std::vector<NodalForce> forces;
+  /** Of nodes in a stream, in ascending order; implicit in the velocities of the nodes. Requires
+   *  SchemeTraits::streams. */
+  std::vector<NodalDrag> drags;
   double tip_torque = 0.0;          ///< external torque at the tip [N·m]
   std::vector<double> edge_torque;  ///< external torque about the axis of every edge; empty: none [N·m]
 
@@ -153,7 +169,9 @@ public:
 
   /** Advances the state by @p dt [s].
    *  @param pass counter of the contact passes of the caller's step, over its sub-steps
-   *  @param contacts null without a vessel */
+   *  @param contacts null without a vessel
+   *  @throws std::invalid_argument for drags in schemes without SchemeTraits::streams, or at nodes that do not exist or
+   *          do not ascend */
   virtual StepReport step(State& state, const StepInput& input, double dt, std::uint32_t& pass,
                           contact::ContactSource* contacts, PhaseTimer& timer) = 0;
 

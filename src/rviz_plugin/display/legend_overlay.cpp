@@ -9,20 +9,11 @@
 #include <Overlay/OgreOverlay.h>
 #include <Overlay/OgreOverlayContainer.h>
 #include <Overlay/OgreOverlayManager.h>
-#include <QPainter>
-
-#include "rviz_plugin/widget/font_scale.h"
 
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
-
-// With usual fonts [pixels]
-constexpr int kLegendWidth = 92, kLegendHeight = 190;
-constexpr int kTitleHeight = 44, kMargin = 7;
-constexpr int kBarWidth = 12, kBarTop = 56, kBarHeight = kLegendHeight - kBarTop - 12;
-constexpr int kLegendRim = 10, kLegendGap = 8;  // from the edge of the picture, and between two legends [pixels]
 
 std::string uniqueName()
 {
@@ -31,48 +22,6 @@ std::string uniqueName()
 }
 
 }  // namespace
-
-QImage legendImage(const std::string& title, const visualization::LegendScale& scale,
-                   const std::function<visualization::Colour(double)>& colour_at)
-{
-  const double size = fontScale();
-  QImage image(static_cast<int>(size * kLegendWidth), static_cast<int>(size * kLegendHeight), QImage::Format_ARGB32);
-  image.fill(QColor(20, 24, 30, 190));
-  QPainter painter(&image);
-  painter.scale(size, size);
-  painter.setRenderHint(QPainter::TextAntialiasing);
-  QFont font("DejaVu Sans");
-  font.setPixelSize(11);
-  painter.setFont(font);
-  painter.setPen(Qt::white);
-  painter.drawText(QRect(kMargin, 5, kLegendWidth - 2 * kMargin, kTitleHeight), Qt::AlignLeft | Qt::TextWordWrap,
-                   QString::fromStdString(title + " [" + scale.unit + "]"));
-  const auto height_of = [&](double value)
-  { return kBarTop + static_cast<int>((kBarHeight - 1) * (1.0 - value / scale.full)); };
-  for (int y = 0; y < kBarHeight; ++y)
-  {
-    const visualization::Colour colour = colour_at(scale.full * (kBarHeight - 1 - y) / (kBarHeight - 1));
-    painter.fillRect(kMargin, kBarTop + y, kBarWidth, 1, QColor::fromRgbF(colour.red, colour.green, colour.blue));
-  }
-  for (std::size_t k = 0; k < scale.ticks.size(); ++k)
-  {
-    const int y = height_of(scale.ticks[k]), x = kMargin + kBarWidth;
-    painter.drawLine(x, y, x + 4, y);
-    painter.drawText(QRect(x + 8, y - 9, kLegendWidth - x - 8, 18), Qt::AlignLeft | Qt::AlignVCenter,
-                     QString::fromStdString(scale.labels[k]));
-  }
-  return image;
-}
-
-QPoint legendPlace(int number)
-{
-  return {kLegendRim, static_cast<int>(kLegendRim + number * fontScale() * (kLegendHeight + kLegendGap))};
-}
-
-QSize legendsSize()
-{
-  return {static_cast<int>(2 * kLegendRim + fontScale() * kLegendWidth), legendPlace(2).y()};
-}
 
 PictureOverlay::PictureOverlay() : name_(uniqueName())
 {

@@ -12,13 +12,14 @@
 
 #include "rviz_plugin/picture/lesson_layout.h"
 #include "rviz_plugin/widget/font_scale.h"
+#include "rviz_plugin/widget/quit_shortcut.h"
 
 namespace endovascular_sim::rviz_plugin
 {
 namespace
 {
 
-constexpr auto kQuit = "lesson_quit";  // name of a shortcut
+constexpr auto kMenu = "lesson_menu";  // name of a shortcut
 constexpr int kSettling = 500;         // time until the window has its size [ms]
 
 void resizeColumns(QMainWindow& window)
@@ -63,19 +64,12 @@ void arrangeForLesson(QWidget& part)
   if (window == nullptr || QApplication::primaryScreen() == nullptr)
     return;
   fill(*window, true);
-  if (window->findChild<QShortcut*>(kQuit) != nullptr)
+  closeByCtrlQ(*window);
+  if (window->findChild<QShortcut*>(kMenu) != nullptr)
     return;
-  // The shortcuts of a hidden menu have no effect; those of a shown one exclude equal ones.
-  auto* quit = new QShortcut(QKeySequence("Ctrl+Q"), window);
-  quit->setObjectName(kQuit);
-  QObject::connect(quit, &QShortcut::activated, window, &QWidget::close);
-  QObject::connect(new QShortcut(QKeySequence("F10"), window), &QShortcut::activated, window,
-                   [window, quit]
-                   {
-                     const bool fills = !window->menuBar()->isHidden();
-                     quit->setEnabled(fills);
-                     fill(*window, fills);
-                   });
+  auto* menu = new QShortcut(QKeySequence("F10"), window);
+  menu->setObjectName(kMenu);
+  QObject::connect(menu, &QShortcut::activated, window, [window] { fill(*window, !window->menuBar()->isHidden()); });
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -13,6 +13,7 @@
 
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/widget/legend_picture.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -92,7 +93,11 @@ void SessionView::onInitialize()
 
 ViewSetting SessionView::setting() const
 {
-  return {yaw_->getFloat(), pitch_->getFloat(), distance_->getFloat()};
+  const Ogre::Viewport* viewport = camera_->getViewport();
+  const int height = viewport != nullptr ? viewport->getActualHeight() : 0;
+  const int legends = legendsSize().height();
+  return {yaw_->getFloat(), pitch_->getFloat(), distance_->getFloat(),
+          height > 2 * legends ? static_cast<double>(legends) / height : 0.0};
 }
 
 double SessionView::aspect() const

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <OgreCamera.h>
+#include <OgreRoot.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <OgreViewport.h>
@@ -23,6 +24,7 @@
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
 #include "rviz_plugin/widget/font_scale.h"
+#include "rviz_plugin/widget/legend_picture.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -113,7 +115,11 @@ VesselDisplay::VesselDisplay()
   name_height_->setMin(4.0F);
 }
 
-VesselDisplay::~VesselDisplay() = default;
+VesselDisplay::~VesselDisplay()
+{
+  if (Ogre::Root* root = Ogre::Root::getSingletonPtr())
+    root->removeFrameListener(this);
+}
 
 void VesselDisplay::onInitialize()
 {
@@ -129,6 +135,7 @@ void VesselDisplay::onInitialize()
             heat_->setFlat();
             legend_ = std::make_unique<PictureOverlay>();
             name_picture_ = std::make_unique<PictureOverlay>();
+            Ogre::Root::getSingleton().addFrameListener(this);
             closeWithoutQuestion(*context_);
           });
 }
@@ -140,8 +147,8 @@ void VesselDisplay::onEnable()
 
 void VesselDisplay::onDisable()
 {
-  for (ros::Subscriber* subscriber :
-       {&mesh_subscriber_, &centreline_subscriber_, &force_subscriber_, &wire_subscriber_})
+  for (ros::Subscriber* subscriber : {&mesh_subscriber_, &centreline_subscriber_, &force_subscriber_, &wire_subscriber_,
+                                      &scene_subscriber_, &step_subscriber_})
     subscriber->shutdown();
   reset();
 }
@@ -195,7 +202,39 @@ void VesselDisplay::subscribe()
             wire_subscriber_ = nodes::subscribeGuarded<RodStateVisual>(update_nh_, wire_topic_->getTopicStd(), 1,
                                                                        [this](const RodStateVisualConstPtr& message)
                                                                        { receiveWire(*message); });
+            scene_subscriber_ =
+                nodes::subscribeGuarded<SessionInfo>(update_nh_, nodes::names::kSessionInfo, 1,
+                                                     [this](const SessionInfoConstPtr& info) { receiveScene(*info); });
+            step_subscriber_ = nodes::subscribeGuarded<ProcedureStep>(update_nh_, nodes::names::kProcedureStep, 1,
+                                                                      [this](const ProcedureStepConstPtr& step)
+                                                                      { receiveStep(*step); });
           });
+}
+
+void VesselDisplay::receiveScene(const SessionInfo& info)
+{
+  steps_.clear();
+  are_names_new_ = true;
+  try
+  {
+    steps_ = sceneSummary(info).steps;
+  }
+  catch (const std::exception& error)
+  {
+    setStatus(rviz::StatusProperty::Warn, "Scene", QString::fromUtf8(error.what()));
+  }
+}
+
+void VesselDisplay::receiveStep(const ProcedureStep& step)
+{
+  const std::string before = goal();
+  step_ = std::max(step.step_of_procedure, 1U) - 1U;
+  are_names_new_ = are_names_new_ || goal() != before;
+}
+
+std::string VesselDisplay::goal() const
+{
+  return step_ < steps_.size() ? steps_[step_].goal : std::string();
 }
 
 void VesselDisplay::receiveWire(const RodStateVisual& message)
@@ -242,16 +281,33 @@ std::optional<visualization::PictureView> VesselDisplay::pictureView() const
 
 void VesselDisplay::followCamera()
 {
-  if (names_.empty() && !centreline_message_)
+  if (!isEnabled() || (names_.empty() && !centreline_message_))
     return;
   const std::optional<visualization::PictureView> view = pictureView();
   if (!view)
     return;
-  if ((ros::WallTime::now() - names_placed_).toSec() > kNamesPeriod &&
-      hasMoved(*view, placed_in_, kMotionOfNames, kShareOfNames))
-    are_names_new_ = true;
+  if (isPlacementDue(*view))
+    placeNames();
   else if (!names_.empty() && hasMoved(*view, drawn_in_, kSmallMotion, kSmallShare))
     drawNames(*view);
+}
+
+bool VesselDisplay::isPlacementDue(const visualization::PictureView& view) const
+{
+  if ((ros::WallTime::now() - names_placed_).toSec() <= kNamesPeriod)
+    return false;
+  const auto is_cut = [&view](const visualization::PlacedName& name)
+  {
+    return view.depth(name.end) > 0.0 &&
+           (name.boxInside(view).centre() - name.box(view).centre()).norm() > kSmallMotion;
+  };
+  return hasMoved(view, placed_in_, kMotionOfNames, kShareOfNames) || std::any_of(names_.begin(), names_.end(), is_cut);
+}
+
+bool VesselDisplay::frameStarted(const Ogre::FrameEvent& /*event*/)
+{
+  guarded(*this, [this] { followCamera(); });
+  return true;
 }
 
 bool VesselDisplay::isCutawayDue() const
@@ -267,7 +323,6 @@ void VesselDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
   guarded(*this,
           [this]
           {
-            followCamera();
             if (is_mesh_new_ || is_heat_new_ || are_names_new_)
               draw();
             else if (near_wall_ && mesh_message_ && isCutawayDue())
@@ -360,8 +415,9 @@ void VesselDisplay::placeNames()
   }
   const NameStyle style = nameStyle();
   names_ = visualization::placeNames(
-      branchesToName(*centreline_message_, [&](const std::string& text) { return nameSize(text, style); }), *view,
-      names_);
+      branchesToName(
+          *centreline_message_, [&](const std::string& text) { return nameSize(text, style); }, goal()),
+      *view, names_);
   names_placed_ = ros::WallTime::now();
   placed_in_ = *view;
   drawNames(*view);
@@ -371,7 +427,6 @@ void VesselDisplay::drawNames(const visualization::PictureView& view)
 {
   name_picture_->show(namePicture(names_, view, nameStyle()), {0, 0});
   drawn_in_ = view;
-  context_->queueRender();
 }
 
 void VesselDisplay::drawLegend()
@@ -389,17 +444,17 @@ void VesselDisplay::drawLegend()
     legend_->hide();
     return;
   }
-  const char* title = quantity == HeatQuantity::kPeak       ? "Peak force on the wall"
-                      : quantity == HeatQuantity::kIntegral ? "Force integral on the wall"
-                                                            : "Time over threshold";
+  const char* title = quantity == HeatQuantity::kPeak       ? "Wall: peak force"
+                      : quantity == HeatQuantity::kIntegral ? "Wall: force integral"
+                                                            : "Wall: time over threshold";
   const char* unit = quantity == HeatQuantity::kPeak ? "N" : quantity == HeatQuantity::kIntegral ? "N·s" : "s";
   const visualization::Colour wall = toColour(colour_->getColor());
-  legend_->show(legendImage(title, visualization::legendScale(full, unit),
-                            [&](double value)
-                            {
-                              const visualization::TranslucentColour heat = visualization::heatColour(value, full);
-                              return visualization::blend(wall, heat.colour, heat.opacity);
-                            }),
+  legend_->show(legendPicture(title, visualization::legendScale(full, unit),
+                              [&](double value)
+                              {
+                                const visualization::TranslucentColour heat = visualization::heatColour(value, full);
+                                return visualization::blend(wall, heat.colour, heat.opacity);
+                              }),
                 legendPlace(1));
 }
 

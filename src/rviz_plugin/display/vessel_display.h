@@ -4,16 +4,20 @@
 #include <optional>
 #include <vector>
 
+#include <OgreFrameListener.h>
 #include <ros/subscriber.h>
 #include <ros/time.h>
 #include <rviz/display.h>
 
 #include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "rviz_plugin/display/legend_overlay.h"
 #include "rviz_plugin/display/surface_object.h"
+#include "rviz_plugin/model/scene_summary.h"
 #include "rviz_plugin/model/vessel_drawing.h"
 #include "rviz_plugin/picture/branch_names.h"
 #include "rviz_plugin/widget/name_picture.h"
@@ -31,8 +35,8 @@ namespace endovascular_sim::rviz_plugin
 {
 
 /** Display of rviz: the wall with smooth shading, back faces before front faces, opened around the tip; the heat map of
- * the forces on it; the names of the branches. */
-class VesselDisplay : public rviz::Display
+ * the forces on it; the names of the branches, that of the present step's goal first. */
+class VesselDisplay : public rviz::Display, private Ogre::FrameListener
 {
   Q_OBJECT
 
@@ -60,7 +64,13 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   void drawHeat();
   void placeNames();
   void drawNames(const visualization::PictureView& view);
-  void followCamera();  ///< moves the names with the camera
+  /** Moves the names with the camera. Views move it after the update of the displays, so it stands still only here. */
+  bool frameStarted(const Ogre::FrameEvent& event) override;
+  void followCamera();
+  bool isPlacementDue(const visualization::PictureView& view) const;
+  void receiveScene(const SessionInfo& info);
+  void receiveStep(const ProcedureStep& step);
+  std::string goal() const;  ///< branch of the present step; empty: none
   NameStyle nameStyle() const;
   void drawLegend();
   void receiveWire(const RodStateVisual& message);
@@ -88,7 +98,10 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
 
   std::unique_ptr<SurfaceObject> far_wall_, near_wall_, heat_;
   std::unique_ptr<PictureOverlay> legend_, name_picture_;
-  ros::Subscriber mesh_subscriber_, centreline_subscriber_, force_subscriber_, wire_subscriber_;
+  std::vector<StepSummary> steps_;  ///< of the scene's procedure
+  std::size_t step_ = 0;            ///< the present one, from 0
+  ros::Subscriber mesh_subscriber_, centreline_subscriber_, force_subscriber_, wire_subscriber_, scene_subscriber_,
+      step_subscriber_;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -20,6 +20,7 @@
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
+#include "rviz_plugin/widget/legend_picture.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -114,6 +115,7 @@ void WireDisplay::onDisable()
   wire_subscriber_.shutdown();
   treatment_subscriber_.shutdown();
   scene_subscriber_.shutdown();
+  player_subscriber_.shutdown();
   reset();
 }
 
@@ -155,6 +157,9 @@ void WireDisplay::subscribe()
             scene_subscriber_ =
                 nodes::subscribeGuarded<SessionInfo>(update_nh_, scene_topic_->getTopicStd(), 1,
                                                      [this](const SessionInfoConstPtr& info) { receiveScene(info); });
+            player_subscriber_ = nodes::subscribeGuarded<PlayerState>(update_nh_, nodes::names::kPlayerState, 1,
+                                                                      [this](const PlayerStateConstPtr& player)
+                                                                      { receivePlayer(*player); });
           });
 }
 
@@ -177,6 +182,16 @@ void WireDisplay::receiveScene(const SessionInfoConstPtr& info)
     setStatus(rviz::StatusProperty::Warn, "Scene", QString::fromUtf8(error.what()));
   }
   is_wire_new_ = true;
+}
+
+void WireDisplay::receivePlayer(const PlayerState& player)
+{
+  if (player.jumps == jumps_ && player.peak_node_force == largest_force_)
+    return;
+  jumps_ = player.jumps;
+  largest_force_ = player.peak_node_force;
+  wire_.restartScale(largest_force_);
+  is_wire_new_ = is_wire_new_ || wire_message_ != nullptr;
 }
 
 void WireDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
@@ -250,8 +265,8 @@ void WireDisplay::drawLegend()
     return;
   }
   const visualization::Colour base = toColour(colours_[0]->getColor());
-  legend_->show(legendImage("Force on the instrument", visualization::legendScale(full, "N"),
-                            [&](double force) { return visualization::forceColourOver(base, force, full); }),
+  legend_->show(legendPicture("Instrument: force", visualization::legendScale(full, "N"),
+                              [&](double force) { return visualization::forceColourOver(base, force, full); }),
                 legendPlace(0));
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 
 #include <ros/subscriber.h>
 #include <rviz/display.h>
 
+#include "endovascular_sim/PlayerState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -54,6 +56,8 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   static constexpr int kColours = 4;
 
   void receiveScene(const SessionInfoConstPtr& info);
+  /** Takes over the largest force of a recording up to the shown time. */
+  void receivePlayer(const PlayerState& player);
   void draw();
   void drawWire();
   void drawTreatment();
@@ -74,10 +78,12 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   bool is_wire_new_ = false, is_treatment_new_ = false;
   double drawn_smallest_radius_ = 0.0;  ///< [m]
   double legend_of_ = 0.0;              ///< full scale of the shown legend [N]; 0: none
+  std::uint32_t jumps_ = 0;             ///< of the player of a recording
+  double largest_force_ = 0.0;          ///< of a recording up to the shown time [N]
 
   std::unique_ptr<SurfaceObject> opaque_, translucent_, balloons_, struts_;
   std::unique_ptr<PictureOverlay> legend_;
-  ros::Subscriber wire_subscriber_, treatment_subscriber_, scene_subscriber_;
+  ros::Subscriber wire_subscriber_, treatment_subscriber_, scene_subscriber_, player_subscriber_;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -73,6 +73,7 @@ void XRayPanel::receiveCamera(const sensor_msgs::CameraInfo& message)
 
 void XRayPanel::receiveWire(const RodStateVisual& message)
 {
+  time_.addState(message.time);
   if (!message.nodes.empty())
     tip_ = toEigen(message.nodes.back());
 }

@@ -13,13 +13,16 @@ std::string ErrorWatch::follow(const ProcedureStep& step, const std::string& bra
   begun_ = step.begun;
   wrong_branches_ = step.wrong_branches;
   outcome_ = step.outcome;
-  if (is_changed && step.outcome == ProcedureStep::LOST)
-    return "Support lost: an earlier step is repeated";
-  if (is_changed && step.outcome == ProcedureStep::FAILED)
-    return "Step failed: " + step.failure;
-  if (is_wrong)
-    return "Wrong branch" + (branch.empty() ? std::string() : ": " + branch) + "; pull back, twist, push";
-  return {};
+  if (is_changed && (step.outcome == ProcedureStep::LOST || step.outcome == ProcedureStep::FAILED))
+  {
+    wrong_branch_.reset();
+    return step.outcome == ProcedureStep::LOST ? "Support lost: an earlier step is repeated"
+                                               : "Step failed: " + step.failure;
+  }
+  if (!is_wrong)
+    return {};
+  wrong_branch_ = branch;
+  return "Wrong branch" + (branch.empty() ? std::string() : ": " + branch) + "; pull back, twist, push";
 }
 
 std::string ErrorWatch::follow(const SessionProgress& progress)
@@ -29,7 +32,18 @@ std::string ErrorWatch::follow(const SessionProgress& progress)
   run_ = progress.run;
   const bool is_new = progress.errors > errors_;
   errors_ = progress.errors;
-  return is_new ? "Error: " + progress.last_error : std::string();
+  if (!is_new)
+    return {};
+  wrong_branch_.reset();
+  return "Error: " + progress.last_error;
+}
+
+bool ErrorWatch::isOver(const std::string& branch) const
+{
+  if (!wrong_branch_)
+    return false;
+  const bool has_left = !wrong_branch_->empty() && !branch.empty() && branch != *wrong_branch_;
+  return has_left || outcome_ == ProcedureStep::DONE;
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "endovascular_sim/ProcedureStep.h"
@@ -21,7 +22,12 @@ public:
   /** Takes over the errors of the recording's metrics. @return as above */
   std::string follow(const SessionProgress& progress);
 
+  /** True if the newest error is a wrong branch that the tip has left, or whose step is done.
+   *  @param branch as above */
+  bool isOver(const std::string& branch) const;
+
 private:
+  std::optional<std::string> wrong_branch_;  ///< name of it, if the newest error is one; empty: unknown
   std::uint32_t begun_ = 0, wrong_branches_ = 0, run_ = 0, errors_ = 0;
   std::uint8_t outcome_ = ProcedureStep::RUNNING;
 };

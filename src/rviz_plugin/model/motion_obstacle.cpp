@@ -56,6 +56,22 @@ std::string obstacleOfGrip(double load, double limit, double unit, const char* f
   return formatted(format, unit * limit) + remedy;
 }
 
+/** Advice for an instrument whose insertion is held: against the motion, or against the force without one. */
+const char* remedyOfSlip(double push, double force)
+{
+  return push > 0.0 || (push == 0.0 && force > 0.0) ? "it is held; pull back" : "it is held; push or twist";
+}
+
+/** Reason of the operating state, in words for the trainee. */
+std::string reasonFor(const std::string& reason, double push, double force)
+{
+  if (reason.rfind("the grip slips in the insertion", 0) == 0)
+    return std::string("slips: ") + remedyOfSlip(push, force);
+  if (reason.rfind("the grip slips in the rotation", 0) == 0)
+    return "slips: its rotation is held; turn back";
+  return reason;
+}
+
 }  // namespace
 
 std::string motionObstacle(const SessionState& state, std::size_t instrument, double push)
@@ -73,15 +89,14 @@ std::string motionObstacle(const SessionState& state, std::size_t instrument, do
     return stop;
   const double force = at(state.wire.hand_force, instrument);
   const std::string slip =
-      obstacleOfGrip(force, summary.force_limit, 1.0,
-                     "slips at %g N: ", force > 0.0 ? "it is held; pull back" : "it is held; push or twist");
+      obstacleOfGrip(force, summary.force_limit, 1.0, "slips at %g N: ", remedyOfSlip(push, force));
   if (!slip.empty())
     return slip;
   const std::string turn = obstacleOfGrip(at(state.wire.hand_torque, instrument), summary.torque_limit, 1e3,
                                           "slips at %g mN·m: ", "its rotation is held; turn back");
   if (!turn.empty())
     return turn;
-  return operating != nullptr ? operating->reason : std::string();
+  return operating != nullptr ? reasonFor(operating->reason, push, force) : std::string();
 }
 
 }  // namespace endovascular_sim::rviz_plugin

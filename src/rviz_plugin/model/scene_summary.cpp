@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "instrument/instrument.h"
 #include "nodes/runtime/ros_names.h"
 #include "scene/scene_file.h"
 
@@ -55,9 +56,14 @@ std::vector<StepSummary> stepsOf(const scene::ProcedureScene& procedure)
   std::vector<StepSummary> steps;
   for (const scene::StepScene& step : procedure.steps)
   {
-    steps.push_back({step.instrument, step.hint});
-    if (step.action == scene::StepAction::kExchange)
-      steps.push_back({step.replacement, step.hint});
+    const std::string& goal = step.until.tip_in.empty() ? step.until.balloon_in : step.until.tip_in;
+    if (step.action != scene::StepAction::kExchange)
+    {
+      steps.push_back({step.instrument, step.hint, goal});
+      continue;
+    }
+    steps.push_back({step.instrument, step.hint, {}});
+    steps.push_back({step.replacement, step.hint, goal});
   }
   return steps;
 }
@@ -104,6 +110,12 @@ SceneSummary sceneSummary(const SessionInfo& info)
     instrument.outside_insertion = -scene.solver.guide_length - 2.0 * edgeOf(scene);  // rod::outsideInsertion()
     instrument.conflicts = conflictsOf(scene, k);
   }
+  for (const scene::DrivenInstrument& driven : scene.instruments)
+    if (scene.flow && instrument::pressureLineOf(driven.instrument))
+    {
+      summary.pressure_lines.push_back(driven.instrument.name);
+      summary.pressure_frames.push_back(driven.instrument.name + nodes::names::kTipFrameOf);
+    }
   if (scene.procedure)
   {
     summary.steps = stepsOf(*scene.procedure);

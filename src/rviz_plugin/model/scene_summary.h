@@ -32,6 +32,7 @@ struct StepSummary
 {
   std::string instrument;  ///< that moves; empty: none
   std::string hint;        ///< advice to a person; empty: none
+  std::string goal;        ///< branch that its tip or balloon is to reach; empty: none
 };
 
 /** Content of a scene that the displays need. */
@@ -41,6 +42,8 @@ struct SceneSummary
   double duration = 0.0;                       ///< [s]
   std::vector<InstrumentSummary> instruments;  ///< from the inside out
   std::vector<StepSummary> steps;              ///< of the procedure
+  std::vector<std::string> pressure_lines;     ///< instruments with a pressure line, where blood flows
+  std::vector<std::string> pressure_frames;    ///< frames of their readings
   bool is_guided = false;                      ///< true: a person does these steps
 
   std::vector<visualization::InstrumentShape> shapes() const;

@@ -7,12 +7,17 @@
 #include <sensor_msgs/JointState.h>
 #include <std_srvs/Trigger.h>
 
+#include "common/error.h"
+#include "endovascular_sim/AlignExpert.h"
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/GoToStep.h"
+#include "endovascular_sim/SetHemodynamics.h"
+#include "endovascular_sim/SetSubject.h"
 #include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/model/centreline_tree.h"
+#include "rviz_plugin/model/diagnosis_text.h"
 #include "rviz_plugin/model/message_points.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -22,12 +27,15 @@ namespace
 
 namespace names = nodes::names;
 
-constexpr double kBranchPeriod = 0.2;         ///< time between two searches of the branch [s]
-constexpr double kDiagnosisAge = 3.0;         ///< age after which a diagnosis is not shown [s]
-constexpr double kSearchPeriod = 1.0;         ///< time between two searches of instruments without a session node [s]
-constexpr double kSameRun = 0.5;              ///< difference of the times of two messages of one run [s]
-constexpr double kUnknownSpeed = 0.05;        ///< speed of an instrument whose scene is unknown [m/s]
-constexpr double kUnknownTurningSpeed = 6.0;  ///< [rad/s]
+constexpr std::uint32_t kPressureQueue = 100;  ///< readings of a fraction of a second
+constexpr double kBranchPeriod = 0.2;          ///< time between two searches of the branch [s]
+constexpr double kLeastErrorTime = 2.0;        ///< during which an error is announced, also if it is over [s]
+constexpr double kDiagnosisAge = 3.0;          ///< age after which a diagnosis is not shown [s]
+constexpr double kSearchPeriod = 1.0;          ///< time between two searches of instruments without a session node [s]
+constexpr double kPlayerAge = 5.0;             ///< age after which a player counts as ended [s]
+constexpr double kSameRun = 0.5;               ///< difference of the times of two messages of one run [s]
+constexpr double kUnknownSpeed = 0.05;         ///< speed of an instrument whose scene is unknown [m/s]
+constexpr double kUnknownTurningSpeed = 6.0;   ///< [rad/s]
 
 const char* serviceOf(Request request)
 {
@@ -41,6 +49,14 @@ const char* serviceOf(Request request)
       return names::kSessionStop;
     case Request::kRepeatStep:
       return names::kGoToStep;
+    case Request::kShowExpert:
+      return names::kShowExpert;
+    case Request::kSetSubject:
+      return names::kSetSubject;
+    case Request::kSetBlood:
+      return names::kSetHemodynamics;
+    case Request::kAlignExpert:
+      return names::kAlignExpert;
     case Request::kStart:
       break;
   }
@@ -77,6 +93,14 @@ SessionClient::SessionClient(const ros::NodeHandle& node) : node_(node), spinner
 {
   node_.setCallbackQueue(&queue_);
   subscribe();
+  player_ = std::make_unique<PlayerRemote>(
+      [service = node_.resolveName(names::kPlayerControl)](const PlayerControl::Request& request)
+      {
+        PlayerControl call;
+        call.request = request;
+        const CallOutcome outcome = outcomeOf(service, call);
+        return outcome.is_success ? std::string() : outcome.text;
+      });
   commander_ = std::make_unique<VelocityCommander>([this](const HandVelocity& velocity) { send(velocity); });
   spinner_.start();
 }
@@ -117,6 +141,29 @@ void SessionClient::subscribe()
       [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { receiveDiagnostics(message); }));
   subscribers_.push_back(nodes::subscribeGuarded<SessionProgress>(
       node_, names::kSessionProgress, 1, [this](const SessionProgressConstPtr& message) { receiveProgress(message); }));
+  subscribers_.push_back(nodes::subscribeGuarded<SessionVerdict>(
+      node_, names::kSessionVerdict, 1, [this](const SessionVerdictConstPtr& message) { receiveVerdict(*message); }));
+  subscribers_.push_back(nodes::subscribeGuarded<PlayerState>(
+      node_, names::kPlayerState, 1, [this](const PlayerStateConstPtr& message) { receivePlayer(message); }));
+  subscribers_.push_back(nodes::subscribeGuarded<ExpertState>(node_, names::kExpertState, 1,
+                                                              [this](const ExpertStateConstPtr& message)
+                                                              {
+                                                                const std::lock_guard<std::mutex> lock(mutex_);
+                                                                state_.expert = *message;
+                                                              }));
+  subscribers_.push_back(
+      nodes::subscribeGuarded<sensor_msgs::FluidPressure>(node_, names::kTipPressure, kPressureQueue,
+                                                          [this](const sensor_msgs::FluidPressureConstPtr& message)
+                                                          {
+                                                            const std::lock_guard<std::mutex> lock(mutex_);
+                                                            pressure_.add(*message);
+                                                          }));
+  subscribers_.push_back(nodes::subscribeGuarded<HeartPhase>(node_, names::kHeartPhase, kPressureQueue,
+                                                             [this](const HeartPhaseConstPtr& message)
+                                                             {
+                                                               const std::lock_guard<std::mutex> lock(mutex_);
+                                                               pressure_.add(*message);
+                                                             }));
   search_ = node_.createWallTimer(ros::WallDuration(kSearchPeriod),
                                   [this](const ros::WallTimerEvent& /*event*/) { searchInstruments(); });
 }
@@ -127,6 +174,9 @@ SessionState SessionClient::state() const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     state = state_;
+    state.blood = pressure_.state();
+    if (secondsSince(player_received_) > kPlayerAge)
+      state.player.reset();
     state.wire_age = state.has_wire ? secondsSince(wire_received_) : 0.0;
     state.error_age = state.last_error.empty() ? 1e9 : secondsSince(error_noted_);
     for (const auto& [name, topics] : instruments_)
@@ -145,6 +195,10 @@ SessionState SessionClient::state() const
   const std::lock_guard<std::mutex> lock(recording_->mutex);
   state.run = recording_->run;
   state.is_recording = recording_->run > 0 && recording_->run != recording_->stopped_run;
+  if (!state.player)
+    return state;
+  takeOverPlayer(state);
+  state.answer = player_->answer();
   return state;
 }
 
@@ -164,6 +218,11 @@ void SessionClient::receiveScene(const SessionInfoConstPtr& info)
   {
     const std::lock_guard<std::mutex> lock(recording_->mutex);
     recording_->run = std::max(recording_->run, 1U);
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_.subject = info->subject;
+    pressure_.setLines(scene.pressure_lines, scene.pressure_frames);
   }
   connectInstruments(scene);
 }
@@ -238,11 +297,14 @@ void SessionClient::searchInstruments()
 void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!message->nodes.empty() && (state_.branch.empty() || secondsSince(branch_found_) > kBranchPeriod))
-  {
-    state_.branch = branches_.nameAt(toEigen(message->nodes.back()));
-    branch_found_ = Clock::now();
-  }
+  const bool is_jump = std::abs(message->time - state_.wire.time) > kSameRun;
+  tip_.reset();
+  if (!message->nodes.empty())
+    tip_ = toEigen(message->nodes.back());
+  if (is_jump || !tip_ || state_.branch.empty() || secondsSince(branch_found_) > kBranchPeriod)
+    findBranch();
+  if (errors_.isOver(state_.branch) && secondsSince(error_noted_) > kLeastErrorTime)
+    state_.last_error.clear();
   if (message->time < state_.wire.time)
     beginRun(message->time);
   noteForces(message->hand_force);
@@ -252,6 +314,13 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
   state_.wire.contact_force.clear();
   state_.has_wire = true;
   wire_received_ = Clock::now();
+}
+
+/** Finds the branch of the foremost tip. Requires the lock. */
+void SessionClient::findBranch()
+{
+  state_.branch = tip_ ? branches_.nameAt(*tip_) : std::string();
+  branch_found_ = Clock::now();
 }
 
 /** Forgets what was of the run before. @param time simulated time of the new one [s] */
@@ -278,7 +347,15 @@ void SessionClient::receiveStep(const ProcedureStepConstPtr& message)
   const std::lock_guard<std::mutex> lock(mutex_);
   state_.step = *message;
   state_.has_step = true;
+  findBranch();  // in which the tip is at this event
   noteError(errors_.follow(*message, state_.branch));
+}
+
+void SessionClient::receivePlayer(const PlayerStateConstPtr& message)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.player = *message;
+  player_received_ = Clock::now();
 }
 
 void SessionClient::receiveProgress(const SessionProgressConstPtr& message)
@@ -289,6 +366,20 @@ void SessionClient::receiveProgress(const SessionProgressConstPtr& message)
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   noteError(errors_.follow(*message));
+}
+
+void SessionClient::receiveVerdict(const SessionVerdict& message)
+{
+  Verdict verdict{message.run, message.verdict, message.page, message.passed != 0, {}};
+  const std::size_t size = message.mark.size();
+  if (message.unit.size() != size || message.value.size() != size || message.limit.size() != size ||
+      message.expert.size() != size || message.mark_passed.size() != size)
+    throw InputError(names::kSessionVerdict, "mark", "the lists must have the same length");
+  for (std::size_t k = 0; k < size; ++k)
+    verdict.marks.push_back({message.mark[k], message.unit[k], message.value[k], message.limit[k], message.expert[k],
+                             message.mark_passed[k] != 0});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.verdict = verdict;
 }
 
 /** Follows the largest forces. Requires the lock. */
@@ -314,11 +405,11 @@ void SessionClient::receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayCon
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const diagnostic_msgs::DiagnosticStatus& status : message->status)
   {
-    if (status.level == diagnostic_msgs::DiagnosticStatus::OK)
+    const std::string text = diagnosisText(status, state_.scene.is_guided);
+    if (text.empty())
       diagnoses_.erase(status.name);
     else
-      diagnoses_[status.name] = {status.name + ": " + status.message,
-                                 status.level != diagnostic_msgs::DiagnosticStatus::WARN, Clock::now()};
+      diagnoses_[status.name] = {text, status.level != diagnostic_msgs::DiagnosticStatus::WARN, Clock::now()};
   }
 }
 
@@ -378,6 +469,32 @@ void SessionClient::request(Request request)
     return outcome;
   };
   calls_.begin(request, serviceOf(request), call);
+}
+
+void SessionClient::setSubject(const std::string& subject)
+{
+  SetSubject service;
+  service.request.subject = subject;
+  const std::string name = node_.resolveName(names::kSetSubject);
+  calls_.begin(Request::kSetSubject, names::kSetSubject, [name, service] { return outcomeOf(name, service); });
+}
+
+void SessionClient::setBlood(const BloodRequest& request)
+{
+  SetHemodynamics service;
+  service.request.heart_rate = request.heart_rate;
+  service.request.mean_pressure = request.mean_pressure;
+  service.request.hyperaemia = static_cast<std::int8_t>(request.hyperaemia);
+  const std::string name = node_.resolveName(names::kSetHemodynamics);
+  calls_.begin(Request::kSetBlood, names::kSetHemodynamics, [name, service] { return outcomeOf(name, service); });
+}
+
+void SessionClient::alignExpert(std::uint8_t alignment)
+{
+  AlignExpert service;
+  service.request.alignment = alignment;
+  const std::string name = node_.resolveName(names::kAlignExpert);
+  calls_.begin(Request::kAlignExpert, names::kAlignExpert, [name, service] { return outcomeOf(name, service); });
 }
 
 }  // namespace endovascular_sim::rviz_plugin

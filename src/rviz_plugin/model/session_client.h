@@ -17,8 +17,10 @@
 
 #include "endovascular_sim/SessionProgress.h"
 #include "endovascular_sim/SessionSample.h"
+#include "endovascular_sim/SessionVerdict.h"
 #include "rviz_plugin/model/error_watch.h"
 #include "rviz_plugin/model/pending_calls.h"
+#include "rviz_plugin/model/player_remote.h"
 #include "rviz_plugin/model/session_port.h"
 #include "vessel/centreline/branch_finder.h"
 
@@ -39,6 +41,10 @@ public:
   void request(Request request) override;
   void changePressure(const std::string& instrument, double difference) override;
   void moveCArm(const std::string& view) override;
+  void setSubject(const std::string& subject) override;
+  void alignExpert(std::uint8_t alignment) override;
+  void setBlood(const BloodRequest& request) override;
+  void controlPlayer(std::uint8_t command, double value) override { player_->give(command, value); }
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -70,12 +76,15 @@ private:
   void subscribe();
   void receiveScene(const SessionInfoConstPtr& info);
   void receiveWire(const RodStateVisualConstPtr& message);
+  void findBranch();
   void beginRun(double time);
   void receiveSample(const SessionSampleConstPtr& message);
   void receiveStep(const ProcedureStepConstPtr& message);
   void receiveProgress(const SessionProgressConstPtr& message);
+  void receiveVerdict(const SessionVerdict& message);
   void noteForces(const std::vector<double>& forces);
   void noteError(const std::string& error);
+  void receivePlayer(const PlayerStateConstPtr& message);
   void receiveDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& message);
   void connectInstruments(const SceneSummary& scene);
   void searchInstruments();
@@ -86,8 +95,10 @@ private:
   ros::NodeHandle node_;
   mutable std::mutex mutex_;  ///< of the members up to the next blank line
   SessionState state_;
-  Clock::time_point wire_received_, branch_found_, error_noted_;
+  Clock::time_point wire_received_, branch_found_, error_noted_, player_received_;
+  std::optional<Eigen::Vector3d> tip_;  ///< the foremost one [m]
   ErrorWatch errors_;
+  PressureMonitor pressure_;
   vessel::BranchFinder branches_{vessel::CentrelineTree()};
   std::map<std::string, std::shared_ptr<Topics>> instruments_;
   std::map<std::string, Diagnosis> diagnoses_;
@@ -99,6 +110,7 @@ private:
   ros::WallTimer search_;
   ros::AsyncSpinner spinner_;
   std::unique_ptr<VelocityCommander> commander_;
+  std::unique_ptr<PlayerRemote> player_;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

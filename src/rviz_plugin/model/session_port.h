@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "rviz_plugin/model/session_state.h"
@@ -16,6 +18,20 @@ enum class Request
   kReset,          ///< returns to the beginning of the scene; a further recording begins
   kRepeatStep,     ///< returns to the beginning of the present step of a guided procedure; a further recording begins
   kStopRecording,  ///< closes the recording and writes its report
+  kShowExpert,     ///< plays the expert's recording
+  kSetSubject,     ///< names the trainee, see SessionPort::setSubject()
+  kSetBlood,       ///< changes the circulation, see SessionPort::setBlood()
+  kAlignExpert,    ///< shows the expert beside the trainee, see SessionPort::alignExpert()
+};
+
+/** Change of the circulation. */
+struct BloodRequest
+{
+  double heart_rate = unchanged();     ///< [Hz]
+  double mean_pressure = unchanged();  ///< [Pa]
+  int hyperaemia = -1;                 ///< 0 or 1; −1: unchanged
+
+  static double unchanged() { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
 /** Connection of the panel to a session. No function blocks. */
@@ -32,6 +48,13 @@ public:
    *  @param difference [Pa] */
   virtual void changePressure(const std::string& instrument, double difference) = 0;
   virtual void moveCArm(const std::string& view) = 0;  ///< view by name, e.g. LAO 40
+  /** Controls the player of a recording, if there is one.
+   *  @param command, value those of PlayerControl */
+  virtual void controlPlayer(std::uint8_t command, double value) = 0;
+  virtual void setSubject(const std::string& subject) = 0;  ///< pseudonym of the trainee
+  /** Shows or hides the expert beside the trainee. @param alignment of ExpertState */
+  virtual void alignExpert(std::uint8_t alignment) = 0;
+  virtual void setBlood(const BloodRequest& request) = 0;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

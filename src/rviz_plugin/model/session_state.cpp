@@ -27,6 +27,20 @@ double at(const std::vector<double>& values, std::size_t index)
   return index < values.size() ? values[index] : std::nan("");
 }
 
+/** Length beyond the introducer; before it the tip is outside. */
+std::string insertionText(double insertion)
+{
+  const double length = 1e3 * insertion;
+  return length <= -0.5 ? number(-length, 0, "mm outside") : number(std::abs(length) < 0.05 ? 0.0 : length, 1, "mm");
+}
+
+/** Text with the names of branches and instruments as the picture shows them. */
+std::string withBlanks(std::string text)
+{
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 std::string stepText(const SessionState& state)
 {
   if (!state.has_step)
@@ -36,11 +50,11 @@ std::string stepText(const SessionState& state)
   std::string text = step.steps_of_procedure > 0
                          ? std::to_string(step.step_of_procedure) + " of " + std::to_string(step.steps_of_procedure)
                          : std::to_string(step.begun);
-  text += ": " + step.phase + ", " + step.name;
+  text += ": " + step.phase + ", " + withBlanks(step.name);
   if (step.outcome == ProcedureStep::DONE)
     text += " (done)";
   else if (step.outcome == ProcedureStep::FAILED)
-    text += " (failed: " + step.failure + ")";
+    text += " (failed: " + withBlanks(step.failure) + ")";
   else if (step.outcome == ProcedureStep::LOST)
     text += " (repeated)";
   if (step.wrong_branches > 0)
@@ -53,8 +67,24 @@ std::string hintText(const SessionState& state)
   if (!state.has_step)
     return state.scene.steps.empty() ? "" : state.scene.steps.front().hint;
   if (state.isProcedureDone())
-    return state.is_recording ? "All steps are done. Stop the recording for the result." : "All steps are done.";
+    return "All steps are done.";
   return state.step.outcome == ProcedureStep::RUNNING ? state.step.hint : "";
+}
+
+const char* wordOf(drive::OperatingState state)
+{
+  switch (state)
+  {
+    case drive::OperatingState::kDisabled:
+      return "disabled";
+    case drive::OperatingState::kPaused:
+      return "paused";
+    case drive::OperatingState::kFault:
+      return "fault";
+    case drive::OperatingState::kEnabled:
+      break;
+  }
+  return "running";
 }
 
 std::string statusText(const SessionState& state, std::size_t instrument)
@@ -62,9 +92,10 @@ std::string statusText(const SessionState& state, std::size_t instrument)
   if (!state.has_wire)
     return "waiting for the simulation";
   const drive::ControlState* operating = state.operatingStateOf(instrument);
-  if (operating != nullptr && (operating->state != drive::OperatingState::kEnabled || !operating->reason.empty()))
-    return drive::nameOf(operating->state) + (operating->reason.empty() ? "" : ": " + operating->reason);
-  return state.wire_age > kStateAge ? "no state of the simulation" : "running";
+  const bool is_old = state.wire_age > kStateAge;
+  if (operating == nullptr || (operating->state == drive::OperatingState::kEnabled && is_old))
+    return is_old ? "no state of the simulation" : "running";
+  return wordOf(operating->state);
 }
 
 /** Share of a limit [%]; 0 for a value that is not finite. */
@@ -95,12 +126,33 @@ const drive::ControlState* SessionState::operatingStateOf(std::size_t instrument
   return found == operating.end() ? nullptr : &found->second;
 }
 
+void takeOverPlayer(SessionState& state)
+{
+  const PlayerState& player = *state.player;
+  state.is_recording = false;
+  state.peak_force = player.peak_hand_force;
+  state.c_arm_view = player.c_arm_view;
+  state.last_error.clear();
+  state.error_age = 1e9;
+  for (const PlayerChapter& chapter : player.chapters)
+    if (chapter.kind == PlayerChapter::ERROR && chapter.time <= player.time)
+    {
+      state.last_error = "Error: " + chapter.name;
+      state.error_age = player.time - chapter.time;
+    }
+  if (state.has_step && state.step.begin > player.time)
+  {
+    state.has_step = false;
+    state.step = ProcedureStep();
+  }
+}
+
 PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
 {
   PanelTexts texts;
   const RodStateVisual& wire = state.wire;
   const double force = at(wire.hand_force, instrument);
-  texts.insertion = number(1e3 * at(wire.insertion, instrument), 1, "mm");
+  texts.insertion = insertionText(at(wire.insertion, instrument));
   texts.rotation = number(at(wire.rotation, instrument) / units::kDegree, 0, "°");
   texts.force = number(force, 2, "N");
   texts.torque = number(1e3 * at(wire.hand_torque, instrument), 2, "mN·m");
@@ -122,6 +174,8 @@ PanelTexts panelTexts(const SessionState& state, std::size_t instrument)
   texts.step = stepText(state);
   texts.hint = hintText(state);
   texts.status = statusText(state, instrument);
+  if (const drive::ControlState* operating = state.operatingStateOf(instrument))
+    texts.reason = operating->reason;
   texts.recording = state.is_recording ? "recording, run " + std::to_string(state.run) : "not recording";
   return texts;
 }

@@ -21,8 +21,8 @@ std::string WireDrawing::update(const RodStateVisual& message, const visualizati
   std::string problem = read(message);
   if (!problem.empty())
     return problem;
-  if (message.time < last_time_)
-    scale_.reset();  // reset of the simulation
+  if (message.time < last_time_)  // reset of the simulation, or jump of a recording
+    restartScale(largest_before_);
   last_time_ = message.time;
   largest_force_ = state_.forces.empty() ? 0.0 : *std::max_element(state_.forces.begin(), state_.forces.end());
   scale_.follow(largest_force_);
@@ -48,6 +48,13 @@ void WireDrawing::divideTriangles()
     std::vector<std::uint32_t>& list = is_opaque ? opaque_ : translucent_;
     list.insert(list.end(), corner, corner + 3);
   }
+}
+
+void WireDrawing::restartScale(double largest)
+{
+  largest_before_ = largest;
+  scale_.reset();
+  scale_.follow(largest);
 }
 
 void WireDrawing::clear()

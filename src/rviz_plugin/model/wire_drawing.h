@@ -27,6 +27,10 @@ public:
    *  @return reason why nothing is drawn; empty for a valid message */
   std::string update(const RodStateVisual& message, const visualization::WireStyle& style);
 
+  /** Begins the scale of the forces anew, at a time of a recording.
+   *  @param largest force of the run up to then [N] */
+  void restartScale(double largest);
+
   void clear();
 
   /** Vertices and triangles of all instruments. */
@@ -49,7 +53,8 @@ private:
   visualization::FollowingScale scale_{0.05};
   double full_force_ = 0.05;
   double largest_force_ = 0.0;
-  double last_time_ = 0.0;  ///< simulated [s]
+  double last_time_ = 0.0;       ///< simulated [s]
+  double largest_before_ = 0.0;  ///< of restartScale(); 0 in a session [N]
 };
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -15,7 +15,8 @@ constexpr double kReach = 1.5;  ///< greatest depth of a branch with a name, rel
 }  // namespace
 
 std::vector<visualization::BranchToName> branchesToName(
-    const VesselCentreline& message, const std::function<Eigen::Vector2d(const std::string&)>& size_of)
+    const VesselCentreline& message, const std::function<Eigen::Vector2d(const std::string&)>& size_of,
+    const std::string& goal)
 {
   const vessel::CentrelineTree tree = centrelineTree(message);
   std::vector<visualization::BranchToName> branches;
@@ -29,6 +30,7 @@ std::vector<visualization::BranchToName> branchesToName(
       continue;
     branch.text = tree.branches[k].name;
     branch.size = size_of(branch.text);
+    branch.comes_first = name == goal;
   }
   return branches;
 }

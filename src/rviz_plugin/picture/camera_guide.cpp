@@ -108,13 +108,13 @@ double CameraGuide::fittingDistance(const ViewSetting& setting, double aspect, d
   const Eigen::Vector3d forward = -directionOf(setting);
   const Eigen::Vector3d up = normalPart(Eigen::Vector3d::UnitZ(), forward);
   const Eigen::Vector3d right = forward.cross(up);
-  const double slope = std::tan(0.5 * field_of_view) / kRim;
+  const double slope = std::tan(0.5 * field_of_view) / kRim, upright = slope * (1.0 - setting.covered);
   double distance = 0.05;
   for (std::size_t i = 0; i < centreline_.size(); ++i)
   {
     const Eigen::Vector3d point = centreline_[i] - centre();
     const double depth = point.dot(forward);
-    distance = std::max({distance, (std::abs(point.dot(up)) + radii_[i]) / slope - depth,
+    distance = std::max({distance, (std::abs(point.dot(up)) + radii_[i]) / upright - depth,
                          (std::abs(point.dot(right)) + radii_[i]) / (slope * aspect) - depth});
   }
   return centreline_.empty() ? (high_ - low_).norm() : distance;
@@ -139,7 +139,10 @@ CameraGuide::Target CameraGuide::targetOf(const ViewSetting& setting, double asp
   if (mode_ == ViewMode::kOverview || wire_.empty())
   {
     const double distance = is_distance_set ? setting.distance : fittingDistance(setting, aspect, field_of_view);
-    return {centre(), distance * directionOf(setting)};
+    // The vessel stands in the middle of what is not covered.
+    const Eigen::Vector3d up = normalPart(Eigen::Vector3d::UnitZ(), directionOf(setting));
+    const double lower = setting.covered * distance * std::tan(0.5 * field_of_view);
+    return {centre() - lower * up, distance * directionOf(setting)};
   }
   if (mode_ == ViewMode::kFollowTip)
     return {wire_.back(), (is_distance_set ? setting.distance : kTipDistance) * directionOf(setting)};

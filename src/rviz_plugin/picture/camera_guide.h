@@ -32,6 +32,7 @@ struct ViewSetting
   double yaw = 0.0;       ///< of the camera about the patient's axis; 0: in front of the patient [rad]
   double pitch = 0.1;     ///< of the camera above the focus [rad]
   double distance = 0.0;  ///< from the focus [m]; 0: that of the mode. In the overview, that in which the vessel fits
+  double covered = 0.0;   ///< part of the picture at its lower edge that legends cover; the overview leaves it free
 };
 
 /** Point that follows a target as a critically damped spring: without a jump of its velocity and without overshoot of a

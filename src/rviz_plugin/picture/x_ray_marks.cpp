@@ -72,4 +72,11 @@ void FluoroscopyTime::addImage(double stamp)
   last_ = stamp;
 }
 
+void FluoroscopyTime::addState(double time)
+{
+  if (time < last_state_)
+    seconds_ = 0.0;
+  last_state_ = time;
+}
+
 }  // namespace endovascular_sim::rviz_plugin

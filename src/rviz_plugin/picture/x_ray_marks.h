@@ -42,10 +42,14 @@ class FluoroscopyTime
 public:
   /** Takes over an image. @param stamp simulated or wall time [s]; an earlier one begins anew */
   void addImage(double stamp);
+  /** Takes over the state of the simulation. @param time simulated time [s]; an earlier one, of a new run, begins anew
+   */
+  void addState(double time);
   double seconds() const { return seconds_; }
 
 private:
-  double last_ = -1.0;  ///< negative: no image yet
+  double last_ = -1.0;        ///< negative: no image yet
+  double last_state_ = -1.0;  ///< negative: no state yet
   double seconds_ = 0.0;
 };
 

@@ -20,6 +20,8 @@ namespace
 
 constexpr double kVacuum = -0.8e5;         // gauge pressure of a deflated balloon [Pa]
 constexpr double kLargestPressure = 40.0;  // that can be typed [atm]
+constexpr int kButtonRim = 14;             // of a button beside its text [pixels]
+constexpr int kSpinButtons = 24;           // width of the arrows beside a typed number, with its rim [pixels]
 
 }  // namespace
 
@@ -88,13 +90,16 @@ QWidget* DriveBox::makeBalloonRow()
   typed_->setDecimals(1);
   typed_->setRange(0.0, kLargestPressure);
   typed_->setSuffix(" atm");
+  typed_->setMinimumWidth(typed_->fontMetrics().horizontalAdvance("00.0 atm") + kSpinButtons);
+  typed_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   const auto set = [this]
   {
     setPressure(typed_->value());
     key_target_.setFocus();
   };
+  inflation_ = {typed_, panelButton("Set", "set_pressure", set)};
   layout->addWidget(typed_, 2, 0);
-  layout->addWidget(panelButton("Set", "set_pressure", set), 2, 1);
+  layout->addWidget(inflation_.back(), 2, 1);
   const struct
   {
     const char *text, *name;
@@ -102,13 +107,24 @@ QWidget* DriveBox::makeBalloonRow()
   } steps[] = {{"+1", "inflate", 1.0}, {"−1", "lower", -1.0}, {"Deflate", "deflate", 0.0}};
   int column = 2;
   for (const auto& step : steps)
-    layout->addWidget(panelButton(step.text, step.name,
-                                  [this, atmospheres = step.atmospheres]
-                                  {
-                                    key_target_.setFocus();
-                                    changePressure(atmospheres);
-                                  }),
-                      2, column++);
+  {
+    inflation_.push_back(panelButton(step.text, step.name,
+                                     [this, atmospheres = step.atmospheres]
+                                     {
+                                       key_target_.setFocus();
+                                       changePressure(atmospheres);
+                                     }));
+    layout->addWidget(inflation_.back(), 2, column++);
+  }
+  // As narrow as their texts: the row has room in a panel that is as wide as its other rows.
+  for (QWidget* part : inflation_)
+    if (auto* button = qobject_cast<QPushButton*>(part))
+    {
+      button->setMinimumWidth(button->fontMetrics().horizontalAdvance(button->text()) + kButtonRim);
+      button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    }
+  for (int k = 0; k < layout->columnCount(); ++k)
+    layout->setColumnStretch(k, k == 0 || k == layout->columnCount() - 1 ? 3 : 2);
   row->hide();
   return row;
 }
@@ -130,13 +146,21 @@ void DriveBox::takeOver(const SessionState& state)
 {
   state_ = state;
   QStringList names;
+  bool has_balloon = false;
   for (const InstrumentSummary& instrument : state_.scene.instruments)
+  {
     names << QString::fromStdString(instrument.shape.name);
+    has_balloon = has_balloon || instrument.has_balloon;
+  }
   QStringList present;
   for (int k = 0; k < instruments_->count(); ++k)
     present << instruments_->itemText(k);
   if (names == present)
     return;
+  // The row of the balloon keeps its place: those below it do not move with the choice of the instrument.
+  QSizePolicy policy = balloon_->sizePolicy();
+  policy.setRetainSizeWhenHidden(has_balloon);
+  balloon_->setSizePolicy(policy);
   {
     const QSignalBlocker blocker(instruments_);
     instruments_->clear();
@@ -161,11 +185,28 @@ void DriveBox::chooseNext(int step)
     instruments_->setCurrentIndex((std::max(instruments_->currentIndex(), 0) + step) % instruments_->count());
 }
 
-void DriveBox::choose(const std::string& instrument)
+bool DriveBox::choose(const std::string& instrument)
 {
   const int index = instruments_->findText(QString::fromStdString(instrument), Qt::MatchExactly);
-  if (index >= 0 && index != instruments_->currentIndex())
-    instruments_->setCurrentIndex(index);
+  if (index < 0 || index == instruments_->currentIndex())
+    return false;
+  instruments_->setCurrentIndex(index);
+  return true;
+}
+
+void DriveBox::setDriving(bool drives)
+{
+  if (drives == drives_)
+    return;
+  drives_ = drives;
+  releaseAll();
+  for (QPushButton* button : motions_)
+    button->setVisible(drives);
+  for (QWidget* part : inflation_)
+    part->setVisible(drives);
+  for (QWidget* part :
+       {static_cast<QWidget*>(speed_), static_cast<QWidget*>(speed_text_), static_cast<QWidget*>(keys_)})
+    part->setVisible(drives);
 }
 
 double DriveBox::push() const
@@ -175,6 +216,8 @@ double DriveBox::push() const
 
 void DriveBox::chooseIndex(int index)
 {
+  keys_held_.holdBack();
+  waits_for_stick_ = is_stick_held_;
   const auto chosen = static_cast<std::size_t>(std::max(index, 0));
   if (chosen < state_.scene.instruments.size())
   {
@@ -198,10 +241,23 @@ void DriveBox::release(Motion motion, OperatorControls::Source source)
   sendVelocity();
 }
 
+void DriveBox::pressKey(Motion motion, std::uint64_t time)
+{
+  if (keys_held_.press(motion, time))
+    press(motion, OperatorControls::Source::kKey);
+}
+
+void DriveBox::releaseKey(Motion motion, std::uint64_t time)
+{
+  keys_held_.release(motion, time);
+  release(motion, OperatorControls::Source::kKey);
+}
+
 void DriveBox::setStick(double push, double twist)
 {
   const bool is_held = push != 0.0 || twist != 0.0;
-  controls_.setStick(push, twist);
+  waits_for_stick_ = waits_for_stick_ && is_held;
+  controls_.setStick(waits_for_stick_ ? 0.0 : push, waits_for_stick_ ? 0.0 : twist);
   if (is_held || is_stick_held_)
     sendVelocity();
   is_stick_held_ = is_held;
@@ -245,7 +301,7 @@ void DriveBox::setSpeedSetting(int setting)
 bool DriveBox::canDrive() const
 {
   const std::size_t index = chosen();
-  return index < state_.scene.instruments.size() && state_.scene.instruments[index].takes_commands;
+  return drives_ && index < state_.scene.instruments.size() && state_.scene.instruments[index].takes_commands;
 }
 
 void DriveBox::sendVelocity()

@@ -42,7 +42,10 @@ void ForceGauge::paintEvent(QPaintEvent* event)
     return;
   QPainter painter(this);
   const int left = (width() - kMarkWidth) * peak_ / 100;
-  painter.fillRect(left, 0, kMarkWidth, height(), QColor(colourOf(peak_)).darker(140));
+  // Above and below the text, which it would strike through.
+  const int length = height() / 4;
+  for (const int top : {0, height() - length})
+    painter.fillRect(left, top, kMarkWidth, length, QColor(colourOf(peak_)).darker(140));
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -5,7 +5,7 @@
 namespace endovascular_sim::rviz_plugin
 {
 
-/** Gauge of a force as a share of its limit, with a mark at the largest share so far. */
+/** Gauge of a force as a share of its limit, with a mark above and below its text at the largest share so far. */
 class ForceGauge : public QProgressBar
 {
 public:

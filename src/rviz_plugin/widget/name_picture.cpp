@@ -42,7 +42,7 @@ void drawLeader(const visualization::PlacedName& name, const visualization::Pict
                 QPainter& painter)
 {
   const Eigen::Vector2d place = view.project(name.end);
-  const QPointF end = toPicture(place, view), begin = toPicture(name.box(view).nearest(place), view);
+  const QPointF end = toPicture(place, view), begin = toPicture(name.boxInside(view).nearest(place), view);
   for (const auto& [colour, width] : {std::pair(groundOf(style), kOutline), std::pair(style.colour, kLine)})
   {
     painter.setPen(QPen(colour, width));
@@ -57,7 +57,7 @@ void drawLeader(const visualization::PlacedName& name, const visualization::Pict
 void drawName(const visualization::PlacedName& name, const visualization::PictureView& view, const NameStyle& style,
               QPainter& painter)
 {
-  const visualization::Rectangle box = name.box(view);
+  const visualization::Rectangle box = name.boxInside(view);
   const QRectF ground(toPicture({box.low.x(), box.high.y()}, view), toPicture({box.high.x(), box.low.y()}, view));
   painter.setPen(Qt::NoPen);
   painter.setBrush(groundOf(style));

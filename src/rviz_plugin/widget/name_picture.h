@@ -23,7 +23,8 @@ struct NameStyle
 Eigen::Vector2d nameSize(const std::string& text, const NameStyle& style);
 
 /** Picture of the names with their leaders, of the size of the view. Every name has a ground of its own and every
- * leader an outline, so that both are readable on any picture. Names that have left the view are not drawn. */
+ * leader an outline, so that both are readable on any picture. Names whose branch has left the view are
+ * not drawn, and the edges of the view cut none. */
 QImage namePicture(const std::vector<visualization::PlacedName>& names, const visualization::PictureView& view,
                    const NameStyle& style);
 

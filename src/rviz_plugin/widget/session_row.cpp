@@ -46,10 +46,10 @@ void SessionRow::showState(const SessionState& state, const PanelTexts& texts)
   is_recording_ = state.is_recording;
   record_->setText(is_recording_ ? "Stop rec." : "Record");
   repeat_->setVisible(state.scene.is_guided);
-  // One line: buttons below must not move under the mouse. The reason is among the errors.
+  // One line: buttons below must not move under the mouse. The notice shows the reason.
   const QString status = QString::fromStdString(texts.status);
   status_->setText(status_->fontMetrics().elidedText(status, Qt::ElideRight, status_->width()));
-  status_->setToolTip(status);
+  status_->setToolTip(texts.reason.empty() ? status : QString::fromStdString(texts.status + ": " + texts.reason));
   recording_->setText(QString::fromStdString(texts.recording));
 }
 

@@ -9,10 +9,15 @@
 
 #include "rviz_plugin/model/motion_obstacle.h"
 #include "rviz_plugin/widget/drive_box.h"
+#include "rviz_plugin/widget/expert_row.h"
 #include "rviz_plugin/widget/font_scale.h"
 #include "rviz_plugin/widget/panel_parts.h"
+#include "rviz_plugin/widget/player_row.h"
+#include "rviz_plugin/widget/pressure_box.h"
 #include "rviz_plugin/widget/session_row.h"
 #include "rviz_plugin/widget/state_box.h"
+#include "rviz_plugin/widget/subject_row.h"
+#include "rviz_plugin/widget/verdict_dialog.h"
 #include "rviz_plugin/widget/view_rows.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -23,6 +28,7 @@ namespace
 constexpr int kRefreshPeriod = 50;  // [ms]
 constexpr int kNoticeLines = 2;     // of the notice, also without one: rows below do not move
 constexpr double kErrorTime = 8.0;  // during which an error is announced [s]
+constexpr int kChangeTime = 3000;   // during which another instrument is announced [ms]
 
 // Buttons of a gamepad: A, B, Y, X.
 constexpr int kButtonPause = 0, kButtonNext = 1, kButtonInflate = 3, kButtonDeflate = 2;
@@ -55,17 +61,27 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::stri
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);
   session_ = new SessionRow(port_, *this);
+  player_ = new PlayerRow(port_, *this);
   drive_ = new DriveBox(port_, *this);
   box_ = new StateBox;
   QWidget* const views = makeViewRow(*this, [this](const QString& view) { Q_EMIT viewChosen(view); });
   c_arm_ = new CArmRow(port_, *this);
+  pressure_ = new PressureBox(port_, *this);
+  pressure_->hide();
   notice_ = panelLabel("notice");
   notice_->setWordWrap(true);
   notice_->setFixedHeight(kNoticeLines * fontMetrics().lineSpacing() + 8);
-  for (QWidget* part : {static_cast<QWidget*>(session_), static_cast<QWidget*>(drive_), static_cast<QWidget*>(notice_),
-                        static_cast<QWidget*>(c_arm_), views, static_cast<QWidget*>(box_)})
+  for (QWidget* part : {static_cast<QWidget*>(session_), static_cast<QWidget*>(player_), static_cast<QWidget*>(drive_),
+                        static_cast<QWidget*>(notice_), static_cast<QWidget*>(pressure_), static_cast<QWidget*>(c_arm_),
+                        views, static_cast<QWidget*>(box_)})
     layout->addWidget(part);
+  subject_ = new SubjectRow(port_, *this);
+  layout->addWidget(subject_);
+  expert_ = new ExpertRow(port_, *this);
+  expert_->hide();
+  layout->addWidget(expert_);
   layout->addStretch(1);
+  verdict_ = new VerdictDialog(port_, *this);
   connect(&timer_, &QTimer::timeout, this, &SessionWidget::refresh);
   timer_.start(kRefreshPeriod);
   refresh();
@@ -91,14 +107,34 @@ void SessionWidget::refresh()
   port_.confirm();
   state_ = port_.state();
   drive_->takeOver(state_);
+  showPlayer();
   followProcedure();
   followJoystick();
   const PanelTexts texts = panelTexts(state_, drive_->chosen());
   session_->showState(state_, texts);
   drive_->showState(texts, takesKeys());
   box_->showState(state_, texts);
+  pressure_->setVisible(state_.blood.has_value());
+  if (state_.blood)
+    pressure_->showBlood(*state_.blood, state_.player.has_value());
   c_arm_->showView(state_.c_arm_view);
+  subject_->setVisible(!state_.player);
+  subject_->showSubject(state_.subject);
+  expert_->setVisible(state_.expert.has_value());
+  if (state_.expert)
+    expert_->showState(*state_.expert);
   showNotice();
+  endLesson();
+}
+
+/** Closes the recording of a lesson whose last step is done, and shows the verdict of a closed recording. */
+void SessionWidget::endLesson()
+{
+  const bool is_done = state_.scene.is_guided && state_.isProcedureDone();
+  if (is_done && !lesson_done_ && state_.is_recording)
+    port_.request(Request::kStopRecording);
+  lesson_done_ = is_done;
+  verdict_->present(state_.verdict);
 }
 
 void SessionWidget::followProcedure()
@@ -106,14 +142,37 @@ void SessionWidget::followProcedure()
   const std::size_t step = state_.presentStep();
   if (step >= state_.scene.steps.size() || step == followed_step_)
     return;
+  const bool is_first = !followed_step_;
   followed_step_ = step;
-  drive_->choose(state_.scene.steps[step].instrument);
+  const std::string& instrument = state_.scene.steps[step].instrument;
+  if (!drive_->choose(instrument) || is_first)
+    return;
+  change_ = instrument;
+  changed_.start();
+}
+
+void SessionWidget::showPlayer()
+{
+  const bool is_played = state_.player.has_value();
+  if (is_played)
+  {
+    player_->showState(*state_.player);
+    player_->showTitle(state_.scene.name, state_.subject);
+  }
+  session_->setVisible(!is_played);
+  player_->setVisible(is_played);
+  drive_->setDriving(!is_played);
+  c_arm_->setEnabled(!is_played);  // the pose is that of the recording
 }
 
 void SessionWidget::showNotice()
 {
   const bool is_error = state_.error_age < kErrorTime;
-  const std::string text = is_error ? state_.last_error : motionObstacle(state_, drive_->chosen(), drive_->push());
+  const bool is_change = changed_.isValid() && changed_.elapsed() < kChangeTime;
+  const std::string text = is_error        ? state_.last_error
+                           : state_.player ? std::string()
+                           : is_change     ? "now: " + change_ + "; a key that is held acts after its release"
+                                           : motionObstacle(state_, drive_->chosen(), drive_->push());
   notice_->setText(QString::fromStdString(text));
   notice_->setStyleSheet(text.empty() ? ""
                          : is_error   ? "background: #c62f2f; color: white; padding: 2px"
@@ -122,6 +181,11 @@ void SessionWidget::showNotice()
 
 void SessionWidget::pauseOrStart()
 {
+  if (state_.player)
+  {
+    player_->playOrPause();
+    return;
+  }
   const drive::ControlState* operating = state_.operatingStateOf(drive_->chosen());
   const bool is_paused = operating != nullptr && operating->state == drive::OperatingState::kPaused;
   port_.request(is_paused ? Request::kStart : Request::kPause);
@@ -171,6 +235,8 @@ bool SessionWidget::eventFilter(QObject* watched, QEvent* event)
 
 bool SessionWidget::pressKey(const QKeyEvent& event)
 {
+  if (state_.player)
+    return (event.isAutoRepeat() && event.key() == Qt::Key_Space) || player_->pressKey(event.key());
   const std::optional<Motion> motion = motionOfKey(event.key());
   const bool is_page = event.key() == Qt::Key_PageUp || event.key() == Qt::Key_PageDown;
   if (!motion && !is_page && event.key() != Qt::Key_Space)
@@ -183,7 +249,7 @@ bool SessionWidget::pressKey(const QKeyEvent& event)
   if (event.isAutoRepeat())
     return true;
   if (motion)
-    drive_->press(*motion, OperatorControls::Source::kKey);
+    drive_->pressKey(*motion, event.timestamp());
   else
     pauseOrStart();
   return true;
@@ -192,10 +258,10 @@ bool SessionWidget::pressKey(const QKeyEvent& event)
 bool SessionWidget::releaseKey(const QKeyEvent& event)
 {
   const std::optional<Motion> motion = motionOfKey(event.key());
-  if (!motion)
+  if (!motion || state_.player)
     return false;
   if (!event.isAutoRepeat())
-    drive_->release(*motion, OperatorControls::Source::kKey);
+    drive_->releaseKey(*motion, event.timestamp());
   return true;
 }
 

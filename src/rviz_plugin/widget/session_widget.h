@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include <QElapsedTimer>
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
@@ -17,15 +18,22 @@ namespace endovascular_sim::rviz_plugin
 
 class CArmRow;
 class DriveBox;
+class ExpertRow;
+class PlayerRow;
+class PressureBox;
 class SessionRow;
 class StateBox;
+class SubjectRow;
+class VerdictDialog;
 
 /** Widget of the panel: controls of a session and its state. Independent of rviz and of ROS's connections.
  *
  *  Keys, while the widget or the widget of takeKeysOf() has the focus: up and down push and pull, left and right twist,
  * space pauses and starts, page up and down choose an instrument. Loss of the focus ends all motions. A gamepad acts
  * without the focus: its sticks push and twist, button 0 (A) pauses and starts, 1 (B) chooses the next instrument, 3
- * (Y) and 2 (X) inflate and deflate the balloon. */
+ * (Y) and 2 (X) inflate and deflate the balloon.
+ *
+ *  While a recording is played, the row of its player stands in place of the controls that drive, and has the keys. */
 class SessionWidget : public QWidget
 {
   Q_OBJECT
@@ -64,16 +72,26 @@ private:
   void followJoystick();
   void followProcedure();  ///< chooses the instrument of a new step
   void showNotice();
+  void endLesson();
+  void showPlayer();
 
   SessionPort& port_;
   Joystick joystick_;
   SessionState state_;
   SessionRow* session_;
+  PlayerRow* player_;
   DriveBox* drive_;
   StateBox* box_;
+  PressureBox* pressure_;
   CArmRow* c_arm_;
   QLabel* notice_;  ///< error of the trainee, or reason why the instrument does not follow
+  SubjectRow* subject_;
+  ExpertRow* expert_;
+  VerdictDialog* verdict_;
+  bool lesson_done_ = false;  ///< the procedure of a lesson is done
   std::optional<std::size_t> followed_step_;
+  std::string change_;     ///< instrument that the procedure chose last
+  QElapsedTimer changed_;  ///< since then; invalid before
   QTimer timer_;
   QPointer<QWidget> key_source_;  ///< see takeKeysOf(); null without one
 };

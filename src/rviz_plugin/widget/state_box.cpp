@@ -91,9 +91,14 @@ void StateBox::showState(const SessionState& state, const PanelTexts& texts)
     target->setText(QString::fromStdString(*text));
   hint_->setVisible(!texts.hint.empty());
   gauge_->showForce(texts.gauge, texts.peak);
-  answer_->setText(answersOf(state).join("\n"));
-  errors_->setText(errorsOf(state).join("\n"));
-  warnings_->setText(firstTexts(state.warnings).join("\n"));
+  const std::pair<QLabel*, QString> messages[] = {{answer_, answersOf(state).join("\n")},
+                                                  {errors_, errorsOf(state).join("\n")},
+                                                  {warnings_, firstTexts(state.warnings).join("\n")}};
+  for (const auto& [target, text] : messages)
+  {
+    target->setText(text);
+    target->setVisible(!text.isEmpty());  // an empty row would take the place of the hint
+  }
 }
 
 }  // namespace endovascular_sim::rviz_plugin

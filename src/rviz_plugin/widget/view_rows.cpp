@@ -39,10 +39,10 @@ CArmRow::CArmRow(SessionPort& port, QWidget& keys) : views_(new QComboBox)
 
 void CArmRow::showView(const std::string& view)
 {
-  if (view.empty() || view == shown_ || views_->hasFocus())
+  if (view == shown_ || views_->hasFocus() || (view.empty() && isEnabled()))
     return;
   shown_ = view;
-  views_->setCurrentText(QString::fromStdString(view));
+  views_->setCurrentText(view.empty() ? QString("view of the scene") : QString::fromStdString(view));
 }
 
 QWidget* makeViewRow(QWidget& keys, const std::function<void(const QString&)>& choose)

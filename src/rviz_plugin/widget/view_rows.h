@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <QString>
@@ -20,12 +21,13 @@ public:
   /** @param port, keys as of SessionRow */
   CArmRow(SessionPort& port, QWidget& keys);
 
-  /** Shows the view to which the C-arm was commanded, by whomever. A view that the user is typing remains. */
+  /** Shows the view to which the C-arm was commanded, by whomever. A view that the user is typing remains. In a
+   *  disabled row an empty view is that of the scene. */
   void showView(const std::string& view);
 
 private:
   QComboBox* views_;
-  std::string shown_;
+  std::optional<std::string> shown_;  ///< none before the first view
 };
 
 /** Row of the panel that chooses the view of the picture.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/hash.h"
+#include "scene/model/portable_text.h"
 
 namespace endovascular_sim::scene
 {
@@ -94,9 +95,12 @@ std::uint64_t Scene::hash() const
   return hash.value();
 }
 
-std::uint64_t Scene::motionHash() const
+namespace
 {
-  std::istringstream text(resolved_yaml);
+
+std::uint64_t motionHashOf(const std::string& yaml)
+{
+  std::istringstream text(yaml);
   std::string kept;
   bool omitted = false;
   for (std::string line; std::getline(text, line);)
@@ -111,6 +115,35 @@ std::uint64_t Scene::motionHash() const
   return hash.value();
 }
 
+}  // namespace
+
+std::uint64_t Scene::motionHash() const
+{
+  return motionHashOf(withoutFolders(resolved_yaml));
+}
+
+std::uint64_t formerMotionHash(const Scene& scene)
+{
+  return motionHashOf(scene.resolved_yaml);
+}
+
+std::string withoutFolders(const std::string& yaml)
+{
+  std::istringstream lines(yaml);
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t colon = line.find(": ");
+    const std::size_t value = colon == std::string::npos ? std::string::npos : line.find_first_not_of("\"'", colon + 2);
+    if (value != std::string::npos && line[value] == '/')
+      line.erase(value, line.rfind('/') + 1 - value);
+    text += line + '\n';
+  }
+  if (!yaml.empty() && yaml.back() != '\n')
+    text.pop_back();
+  return text;
+}
+
 std::vector<std::string> requiredNodes(const Scene& scene)
 {
   std::vector<std::string> nodes;
@@ -119,6 +152,8 @@ std::vector<std::string> requiredNodes(const Scene& scene)
   nodes.emplace_back("rod_dynamics");
   if (scene.vessel)
     nodes.emplace_back("contact");
+  if (scene.flow)
+    nodes.emplace_back("hemodynamics");
   if (scene.haptic_device)
     nodes.emplace_back("haptic_device");
   if (scene.fluoroscopy)

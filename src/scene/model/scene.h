@@ -11,6 +11,7 @@
 
 #include "contact/wall/wall_law.h"
 #include "drive/drive_limits.h"
+#include "flow/body/circulation.h"
 #include "fluoroscopy/gantry/gantry_limits.h"
 #include "instrument/instrument.h"
 #include "robot/command_fault.h"
@@ -241,6 +242,25 @@ struct SolverScene
   const rod::SchemeTraits& traits() const { return rod::schemeTraits(scheme); }
 };
 
+/** Instruments on which the stream of blood acts. */
+enum class FlowDrag
+{
+  kNone,
+  kSoft,  ///< sections with a bending stiffness below 50 N·mm²; the stream does not move stiffer ones visibly
+  kAll,
+};
+
+/** Flow of blood in the vessel. */
+struct FlowScene
+{
+  flow::Circulation circulation;
+  double time_step = 5e-3;     ///< of the flow, a multiple of that of the solver [s]
+  double heart_rate = 0.0;     ///< at the beginning [Hz]
+  double mean_pressure = 0.0;  ///< at the beginning [Pa]
+  bool hyperaemia = false;     ///< at the beginning
+  FlowDrag drag = FlowDrag::kSoft;
+};
+
 /** Body around the vessel in the X-ray image: procedural, or a CT. */
 struct PatientScene
 {
@@ -327,6 +347,7 @@ struct Scene
   std::vector<RollerScene> rollers;  ///< in place of a vessel
   SamplingScene sampling;
   SolverScene solver;
+  std::optional<FlowScene> flow;  ///< if empty, blood does not flow
   std::optional<FluoroscopyScene> fluoroscopy;
   bool haptic_device = false;  ///< true: start the haptic device node
   std::optional<RobotScene> robot;

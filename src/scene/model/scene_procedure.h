@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,11 +69,14 @@ struct StepScene
   std::string instrument;   ///< moved instrument; in an exchange, the withdrawn one
   std::string replacement;  ///< instrument that an exchange advances
   GoalScene until;
-  double speed = 0.02;       ///< insertion speed [m/s]
-  double turn_speed = 0.0;   ///< rotation speed [rad/s]
-  bool steer = false;        ///< true: near junctions the operator turns the bent tip along the path to the goal
-  double pressure = 0.0;     ///< pressure of an inflation [Pa]
-  double duration = 0.0;     ///< duration of an inflation or a wait [s]
+  double speed = 0.02;      ///< insertion speed [m/s]
+  double turn_speed = 0.0;  ///< rotation speed [rad/s]
+  bool steer = false;       ///< true: near junctions the operator turns the bent tip along the path to the goal
+  double pressure = 0.0;    ///< pressure of an inflation [Pa]
+  double duration = 0.0;    ///< duration of an inflation or a wait [s]
+  /** Hyperaemia required during a wait; empty: any. The scripted operator sets it. For a person the wait counts while
+   * it is set. */
+  std::optional<bool> hyperaemia;
   double time_limit = 30.0;  ///< duration after which the step fails [s]
   bool any_branch = false;   ///< true: no branch counts as wrong
   RetryScene retry;

@@ -187,6 +187,32 @@ void visitShaft(yaml::Fields& fields, instrument::Instrument& instrument)
   visitMarkers(fields, instrument);
 }
 
+/** Schema of the pressure line. The usual one of a catheter is not written, so that texts of scenes stay as they are.
+ */
+void visitPressureLine(yaml::Fields& fields, instrument::Instrument& instrument)
+{
+  const instrument::PressureLine usual;
+  std::optional<instrument::PressureLine>& line = instrument.pressure_line;
+  if (fields.reading() ? !fields.has("pressure_line") : !line.has_value())
+    return;
+  if (!line)
+    line.emplace();
+  const bool is_usual = line->from_tip == usual.from_tip && line->natural_frequency == usual.natural_frequency &&
+                        line->damping == usual.damping && instrument.kind == instrument::Kind::kCatheter;
+  if (!fields.reading() && is_usual)
+    return;
+  fields.map(
+      "pressure_line",
+      [&](yaml::Fields& keys)
+      {
+        keys.number("from_tip", line->from_tip, quantities::kFromTip, Range::nonNegative());
+        keys.number("natural_frequency", line->natural_frequency, quantities::kFrequency, {0.5, 1000.0, false, false});
+        keys.number("damping", line->damping, quantities::kScale, {0.01, 10.0, false, false});
+        if (keys.reading() && line->from_tip >= instrument.wire.length())
+          keys.reject("from_tip", "lies beyond the shaft; must be less than its length");
+      });
+}
+
 }  // namespace
 
 bool isTopicName(const std::string& name)
@@ -205,7 +231,10 @@ void visitInstrument(yaml::Fields& fields, instrument::Instrument& instrument)
   const bool is_stent = instrument.kind == instrument::Kind::kStent;
   const bool is_balloon = instrument.kind == instrument::Kind::kBalloonCatheter;
   if (!is_stent)
+  {
     visitShaft(fields, instrument);
+    visitPressureLine(fields, instrument);
+  }
   if (is_balloon)
     visitBalloon(fields, instrument);
   else if (fields.has("balloon"))

@@ -102,7 +102,15 @@ void visitStep(yaml::Fields& fields, StepScene& step)
     fields.reject("view", fluoroscopy::unknownView(step.view));
   visitAction(fields, step);
   if (step.action == StepAction::kWait)
+  {
+    if (fields.reading() ? fields.has("hyperaemia") : step.hyperaemia.has_value())
+    {
+      if (!step.hyperaemia)
+        step.hyperaemia.emplace();
+      fields.boolean("hyperaemia", *step.hyperaemia);
+    }
     return;
+  }
   if (step.action == StepAction::kInflate)
   {
     fields.number("pressure", step.pressure, quantities::kPressure,
@@ -244,6 +252,8 @@ void checkProcedure(const yaml::Fields& fields, const Scene& scene)
       fields.reject(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
     if (step.action == StepAction::kExchange && scripted(scene, step.replacement) == nullptr)
       fields.reject(path + "for", "'" + step.replacement + remedy);
+    if (step.hyperaemia && !scene.flow)
+      fields.reject(path + "hyperaemia", "needs blood that flows; give the scene the key flow, e.g. flow: adult");
     checkSupport(fields, scene, k);
     if (!step.view.empty())
       checkView(fields, path + "view", step.view, scene);

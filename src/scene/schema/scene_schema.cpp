@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/file/file_name.h"
+#include "common/text/one_line.h"
 #include "common/units.h"
 
 namespace endovascular_sim::scene
@@ -69,6 +70,14 @@ void visitRecord(yaml::Fields& fields, RecordScene& record)
   fields.number("trajectory_rate", record.trajectory_rate, quantities::kRate, Range::positive());
   fields.number("wall_force_threshold", record.wall_force_threshold, quantities::kWallForce, Range::nonNegative());
   fields.boolean("x_ray_frames", record.x_ray_frames);
+  if (!fields.reading())
+    return;
+  // The pseudonym of a trainee is no part of the scene: its text and hash are those of all trainees (recordSubject()).
+  std::string subject;
+  fields.text("subject", subject);
+  if (!isOneLine(subject))
+    fields.reject("subject", "must be one line of at most " + std::to_string(kLongestLine) +
+                                 " bytes in UTF-8, without control characters");
 }
 
 /** Schema of the scene's name, which names the folder of the results. */
@@ -198,6 +207,7 @@ void checkScene(const yaml::Fields& fields, const Scene& scene)
   checkPatient(fields, scene);
   checkEnds(fields, scene);
   checkRollers(fields, scene);
+  checkFlow(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
       fields.reject(drivePath(scene, k) + "drive.source",
@@ -382,6 +392,12 @@ void visitScene(yaml::Fields& fields, Scene& scene)
     if (!scene.fluoroscopy)
       scene.fluoroscopy.emplace();
     fields.map("fluoroscopy", [&scene](yaml::Fields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
+  }
+  if (fields.reading() ? fields.has("flow") : scene.flow.has_value())
+  {
+    if (!scene.flow)
+      scene.flow.emplace();
+    fields.map("flow", [&scene](yaml::Fields& flow) { visitFlow(flow, *scene.flow); });
   }
   fields.boolean("haptic_device", scene.haptic_device);
   if (fields.reading() ? fields.has("robot") : scene.robot.has_value())

@@ -53,6 +53,10 @@ void visitDrive(yaml::Fields& fields, DriveScene& drive, const Range& initial_in
 /** Schema of the limits of a drive, keys `drive.limits`. */
 void visitLimits(yaml::Fields& fields, drive::DriveLimits& limits, bool balloon);
 void visitProfile(yaml::Fields& fields, DriveProfile& profile, const Quantity& quantity);
+/** Schema of `flow`. */
+void visitFlow(yaml::Fields& fields, FlowScene& flow);
+/** Rejects flow without a tree of vessels, or at a rate that the steps do not divide. */
+void checkFlow(const yaml::Fields& fields, const Scene& scene);
 void visitEnds(yaml::Fields& fields, Scene& scene);
 void visitLoads(yaml::Fields& fields, LoadScene& loads, double wire_length);
 /** Schema of the list `rollers`. */

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "common/output_file.h"
+#include "yaml/writer.h"
 
 namespace endovascular_sim::vessel
 {
@@ -27,12 +28,12 @@ void writeCentreline(const CentrelineTree& tree, const std::string& name, const 
   std::ofstream out(path);
   out.precision(9);
   out << "# Centreline of a vessel mesh: points and inscribed diameters, in metres.\n"
-      << "name: \"" << name << "\"\nunit: 1\nbranches:\n";
+      << "name: " << yaml::quoted(name) << "\nunit: 1\nbranches:\n";
   for (const CentrelineBranch& branch : tree.branches)
   {
-    out << "  - name: " << branch.name << "\n";
+    out << "  - name: " << yaml::quoted(branch.name) << "\n";
     if (branch.parent >= 0)
-      out << "    parent: " << tree.branches[static_cast<std::size_t>(branch.parent)].name << "\n";
+      out << "    parent: " << yaml::quoted(tree.branches[static_cast<std::size_t>(branch.parent)].name) << "\n";
     out << "    points:\n";
     for (const Eigen::Vector3d& p : branch.points)
       out << "      - [" << p.x() << ", " << p.y() << ", " << p.z() << "]\n";

@@ -49,7 +49,34 @@ private:
   std::vector<geometry::TriangleMesh> components_;
 };
 
-/** Measures the distances from the input's outer wall to the result, and the area of inner walls. */
+/** Sample of a narrow gap between two walls. */
+struct GapSample
+{
+  Eigen::Vector3d middle;
+  double width;
+};
+
+/** Measures the gap on one side of a wall by a ray.
+ *  @return false without a facing wall within @p widest */
+bool measureGap(const geometry::SurfaceSample& sample, const Eigen::Vector3d& direction,
+                const geometry::MeshDistance& soup, double widest, const geometry::TriangleMesh& mesh, GapSample& gap)
+{
+  const double offset = 1e-7;
+  const double hit = soup.rayHit(sample.point + offset * direction, direction);
+  if (!(hit > 0.0) || hit > widest)
+    return false;
+  const geometry::ClosestPoint other = soup.closest(sample.point + (hit + offset) * direction);
+  const Eigen::Vector3i& t = mesh.triangles[static_cast<std::size_t>(other.triangle)];
+  const auto at = [&](int k) -> const Eigen::Vector3d& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
+  if (std::abs(normal.dot(direction)) < kFacing * normal.norm())
+    return false;
+  gap = {sample.point + (0.5 * hit + offset) * direction, hit};
+  return true;
+}
+
+}  // namespace
+
 void measureInputToResult(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
   const geometry::SignedMeshDistance united(input.united);
@@ -97,7 +124,6 @@ void measureInputToResult(const InputSurfaces& input, const geometry::TriangleMe
   report.input_to_result = geometry::deviationOf(kept, kept_distances, report.max_distance);
 }
 
-/** Measures the distances from the result to the input, without lids and bridges. */
 void measureResultToInput(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
 {
   const geometry::MeshDistance soup(input.soup);
@@ -115,40 +141,6 @@ void measureResultToInput(const InputSurfaces& input, const geometry::TriangleMe
     distances.push_back(closest.distance);
   }
   report.result_to_input = geometry::deviationOf(own, distances, report.max_distance);
-}
-
-/** Sample of a narrow gap between two walls. */
-struct GapSample
-{
-  Eigen::Vector3d middle;
-  double width;
-};
-
-/** Measures the gap on one side of a wall by a ray.
- *  @return false without a facing wall within @p widest */
-bool measureGap(const geometry::SurfaceSample& sample, const Eigen::Vector3d& direction,
-                const geometry::MeshDistance& soup, double widest, const geometry::TriangleMesh& mesh, GapSample& gap)
-{
-  const double offset = 1e-7;
-  const double hit = soup.rayHit(sample.point + offset * direction, direction);
-  if (!(hit > 0.0) || hit > widest)
-    return false;
-  const geometry::ClosestPoint other = soup.closest(sample.point + (hit + offset) * direction);
-  const Eigen::Vector3i& t = mesh.triangles[static_cast<std::size_t>(other.triangle)];
-  const auto at = [&](int k) -> const Eigen::Vector3d& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
-  if (std::abs(normal.dot(direction)) < kFacing * normal.norm())
-    return false;
-  gap = {sample.point + (0.5 * hit + offset) * direction, hit};
-  return true;
-}
-
-}  // namespace
-
-void measureDeviations(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report)
-{
-  measureInputToResult(input, result, report);
-  measureResultToInput(input, result, report);
 }
 
 NarrowGaps measureGaps(const InputSurfaces& input, const geometry::TriangleMesh& result)

@@ -16,9 +16,13 @@ struct InputSurfaces
   double voxel;                          ///< edge of a voxel [m]
 };
 
-/** Measures the distances between input and result in both directions. Inner walls of the input are excluded in one
- *  direction, lids and bridges in the other. The report receives the excluded areas. */
-void measureDeviations(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report);
+/** Measures the distances from the input's outer wall to the result. The report receives the area of inner walls, which
+ *  are excluded. */
+void measureInputToResult(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report);
+
+/** Measures the distances from the result to the input. The report receives the area of lids and bridges, which are
+ *  excluded. */
+void measureResultToInput(const InputSurfaces& input, const geometry::TriangleMesh& result, PrepareReport& report);
 
 /** Samples gaps between walls of the input that are narrower than two voxels, and counts those that the result retains.
  *  */

@@ -15,7 +15,7 @@ namespace
 {
 
 /** Half-width of the narrow band, in voxels. */
-constexpr float kBand = 3.0F;
+constexpr float kBand = 2.0F;
 constexpr int kMaxSeparationRounds = 20;
 /** Signed distance assigned to grid points between touching sheets, in voxels. */
 constexpr float kOutside = 0.25F;

@@ -73,8 +73,11 @@ public:
     unitePieces();
     remeshWall();
     smooth();
-    findCentreline();
-    openEnds();
+    if (options_.centreline)
+    {
+      findCentreline();
+      openEnds();
+    }
     report().after = numbersOf(result_.mesh);
     return std::move(result_);
   }
@@ -225,7 +228,10 @@ private:
     requireClean(checkMesh(result_.mesh), source_);
     begin("measuring the distances");
     const InputSurfaces input{soup_, own_triangles_, united_, voxel_};
-    measureDeviations(input, result_.mesh, report());
+    measureResultToInput(input, result_.mesh, report());
+    if (!options_.full_report)
+      return;
+    measureInputToResult(input, result_.mesh, report());
     if (!options_.hollow)  // gaps outside of a thick wall are irrelevant
       report().gaps = measureGaps(input, result_.mesh);
   }
@@ -234,6 +240,8 @@ private:
   {
     begin("extracting the centreline");
     result_.centreline = extractCentreline(result_.mesh);
+    if (!options_.full_report)
+      return;
     const geometry::MeshDistance before(united_);
     const geometry::MeshDistance after(result_.mesh);
     for (std::size_t b = 0; b < result_.centreline.branches.size(); ++b)

@@ -26,7 +26,10 @@ struct PrepareOptions
   double longest_facet = 2.5e-3;  ///< longest edge of the result [m]
   /** Selectors of the ends to open: "all", "largest", a count, a branch, or "x,y,z" [m] near an end. */
   std::vector<std::string> open;
-  double cut_back = 1.0;  ///< distance from the tip of an end to its cut, in radii of the lumen
+  double cut_back = 1.0;   ///< distance from the tip of an end to its cut, in radii of the lumen
+  bool centreline = true;  ///< false: no centreline is extracted, and no end can be opened
+  /** false: of the comparisons with the input, the report holds the distances from the result to the input only. */
+  bool full_report = true;
 };
 
 /** Vessel ready for a scene: one connected, outward oriented two-manifold, closed except for the opened ends. */

@@ -55,9 +55,14 @@ MeshTarget::MeshTarget(const geometry::TriangleMesh& mesh, const SizingRule& rul
 void MeshTarget::grade()
 {
   using Entry = std::pair<double, int>;
+  const auto boundAt = [this](std::size_t v, std::size_t n)
+  { return edge_length_[v] + kGradation * (mesh_.vertices[n] - mesh_.vertices[v]).norm(); };
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (std::size_t v = 0; v < edge_length_.size(); ++v)
-    open.emplace(edge_length_[v], static_cast<int>(v));
+  for (std::size_t v = 0; v < edge_length_.size(); ++v)  // vertices that bound a neighbour
+    if (std::any_of(neighbours_[v].begin(), neighbours_[v].end(),
+                    [&](int n)
+                    { return boundAt(v, static_cast<std::size_t>(n)) < edge_length_[static_cast<std::size_t>(n)]; }))
+      open.emplace(edge_length_[v], static_cast<int>(v));
   while (!open.empty())
   {
     const auto [edge_length, vertex] = open.top();
@@ -68,7 +73,7 @@ void MeshTarget::grade()
     for (int next : neighbours_[v])
     {
       const auto n = static_cast<std::size_t>(next);
-      const double bound = edge_length + kGradation * (mesh_.vertices[n] - mesh_.vertices[v]).norm();
+      const double bound = boundAt(v, n);
       if (bound >= edge_length_[n])
         continue;
       edge_length_[n] = bound;

@@ -111,4 +111,24 @@ TEST(FacetForces, NeverPullAndNeverNameAForeignTriangle)
   EXPECT_EQ(facets.divide({0.0, 0.0, 1.0}, std::array<int, 1>{-1}).count, 0U);
 }
 
+// An inflated balloon touches the wall all round: its small force must not become large ones that cancel out.
+TEST(FacetForces, OfFacetsThatFaceEachOtherAreOfTheSizeOfTheForce)
+{
+  for (const double slope : {1e-1, 1e-2, 1e-3, 1e-4})
+  {
+    Eigen::Matrix3d normals;
+    normals << 0.0, 0.0, 1.0, 1.0, -1.0, 0.0, slope, slope, slope;
+    normals.colwise().normalize();
+    const FacetForces facets(facetsWith(normals));
+    for (const Eigen::Vector3d& force : {Eigen::Vector3d(0.0, 0.0, 1.0), Eigen::Vector3d(0.3, 0.4, 1.0)})
+    {
+      const FacetForces::Shares shares = facets.divide(force, std::array<int, 3>{0, 1, 2});
+      // A force across all normals may have no share; then the deepest triangle carries it (WallForceMap).
+      EXPECT_TRUE(shares.count > 0U || force.head<2>().isZero()) << slope;
+      for (std::size_t k = 0; k < shares.count; ++k)
+        EXPECT_LE(shares.share[k].force, 2.0 * force.norm()) << slope;
+    }
+  }
+}
+
 }  // namespace endovascular_sim::contact

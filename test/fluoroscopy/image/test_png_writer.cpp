@@ -18,7 +18,7 @@ std::vector<Pixel> readPng(const std::string& file, png_uint_32 format, png_uint
   EXPECT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0) << image.message;
   image.format = format;
   width = image.width;
-  std::vector<Pixel> pixels(static_cast<std::size_t>(image.width) * image.height);
+  std::vector<Pixel> pixels(static_cast<std::size_t>(image.width) * image.height * PNG_IMAGE_SAMPLE_CHANNELS(format));
   EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0) << image.message;
   return pixels;
 }
@@ -41,6 +41,17 @@ TEST(WritePng, RoundTripsWith16Bits)
   png_uint_32 width = 0;
   EXPECT_EQ(readPng<std::uint16_t>(file, PNG_FORMAT_LINEAR_Y, width), grey);
   EXPECT_EQ(width, 2U);
+}
+
+TEST(WritePng, RoundTripsInColour)
+{
+  const std::vector<std::uint8_t> colours = {255, 0, 0, 0, 255, 0, 0, 0, 255, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const std::string file = testing::TempDir() + "colour.png";
+  writeColourPng(file, 3, 2, colours);
+  png_uint_32 width = 0;
+  EXPECT_EQ(readPng<std::uint8_t>(file, PNG_FORMAT_RGB, width), colours);
+  EXPECT_EQ(width, 3U);
+  EXPECT_THROW(writeColourPng(file, 6, 3, {1, 2, 3}), InputError);
 }
 
 TEST(WritePng, RejectsInconsistentSizesAndUnwritablePaths)

@@ -13,8 +13,12 @@
 #include "common/version.h"
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/ContactForces.h"
+#include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "endovascular_sim/SessionEnd.h"
 #include "nodes/conversions/contact_force_conversions.h"
+#include "nodes/player/bag_timeline.h"
+#include "nodes/player/recorded_course.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/session/bag_records.h"
 #include "nodes/session/metrics_recorder.h"
@@ -84,34 +88,25 @@ TEST(BagOfAFormerVersion, IsReplayedBitForBitAsLongAsThePhysicsIsItsOwn)
   }
 }
 
-TEST(BagOfAFormerVersion, IsShownByTheTopicsOfTheLaunchFile)
+TEST(BagOfAFormerVersion, IsShownByThePlayerWithTheTypesOfThisVersion)
 {
-  const std::string launch = textOf(PROJECT_DIR "/launch/replay.launch");
-  const std::string played = launch.substr(launch.find("--topics"), launch.find("<group if") - launch.find("--topics"));
-  std::map<std::string, int> shown;
-  readBagMessages(kBag,
-                  [&](const BagMessage& message)
-                  {
-                    if (!std::regex_search(played, std::regex(message.topic + "[ \n\"]")))
-                      return;
-                    ++shown[message.topic];
-                    for (const auto& [topic, md5] :
-                         {std::pair("/session/info", ros::message_traits::MD5Sum<SessionInfo>::value()),
-                          std::pair("/vessel/mesh", ros::message_traits::MD5Sum<VesselMesh>::value()),
-                          std::pair("/vessel/centreline", ros::message_traits::MD5Sum<VesselCentreline>::value()),
-                          std::pair("/rod/state_visual", ros::message_traits::MD5Sum<RodStateVisual>::value()),
-                          std::pair("/treatment/state_visual", ros::message_traits::MD5Sum<TreatmentVisual>::value()),
-                          std::pair("/contact/forces", ros::message_traits::MD5Sum<ContactForces>::value()),
-                          std::pair("/contact/force_map", ros::message_traits::MD5Sum<ContactForceMap>::value())})
-                    {
-                      if (message.topic == topic)
-                      {
-                        EXPECT_EQ(message.md5sum, md5) << topic;
-                      }
-                    }
-                  });
-  EXPECT_GE(shown.size(), 9U);  // the seven above, and those of tf
-  EXPECT_GT(shown["/treatment/state_visual"], 5);
+  const BagTimeline timeline({kBag});
+  std::map<std::string, std::string> shown;
+  for (const RecordedTopic& topic : timeline.topics())
+    shown[topic.name] = topic.md5sum;
+  for (const auto& [topic, md5] :
+       {std::pair("/session/info", ros::message_traits::MD5Sum<SessionInfo>::value()),
+        std::pair("/vessel/mesh", ros::message_traits::MD5Sum<VesselMesh>::value()),
+        std::pair("/vessel/centreline", ros::message_traits::MD5Sum<VesselCentreline>::value()),
+        std::pair("/vessel/wall_displacement", ros::message_traits::MD5Sum<WallDisplacement>::value()),
+        std::pair("/rod/state_visual", ros::message_traits::MD5Sum<RodStateVisual>::value()),
+        std::pair("/treatment/state_visual", ros::message_traits::MD5Sum<TreatmentVisual>::value()),
+        std::pair("/procedure/step", ros::message_traits::MD5Sum<ProcedureStep>::value()),
+        std::pair("/contact/forces", ros::message_traits::MD5Sum<ContactForces>::value()),
+        std::pair("/contact/force_map", ros::message_traits::MD5Sum<ContactForceMap>::value())})
+    EXPECT_EQ(shown[topic], md5) << topic;
+  EXPECT_EQ(timeline.states().size(), 2U);
+  EXPECT_FALSE(RecordedCourse(timeline).chapters().empty());
 }
 
 TEST(BagOfAFormerVersion, IsReportedWithTheMetricsOfItsSession)
@@ -154,6 +149,33 @@ TEST(BagOfAFormerVersion, IsReportedWithTheMetricsOfItsSession)
   metrics.write(folder, forces ? &*forces : nullptr);
   const std::string recorded = std::regex_replace(textOf(kMetrics), std::regex("new_tries"), "retries");
   EXPECT_EQ(textOf(folder + "/metrics.json"), recorded);
+}
+
+TEST(FormerFields, AreTheFirstOnesOfAPresentDefinition)
+{
+  const std::string present = "# text\nuint64 step\nfloat64 time # s\n====\nMSG: a/B\nint8 c\n";
+  EXPECT_TRUE(hasFirstFields("uint64 step\n", present));
+  EXPECT_TRUE(hasFirstFields("uint64 step\nfloat64 time\n====\nMSG: a/B\nint8 c\n", present));
+  EXPECT_FALSE(hasFirstFields("float64 time\n", present));
+  EXPECT_FALSE(hasFirstFields("", present));
+  EXPECT_FALSE(hasFirstFields("uint64 step\n====\nMSG: a/B\nint16 c\n", present));
+  EXPECT_FALSE(hasFirstFields(present + "int8 d\n", "uint64 step\n"));
+}
+
+TEST(FormerFields, AreReadAndLaterOnesKeepTheirInitialValues)
+{
+  BagMessage message;
+  message.definition =
+      "std_msgs/Header header\nuint64 steps\n====\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n";
+  std::vector<std::uint8_t> bytes(24, 0);
+  bytes[16] = 7;
+  message.data = bytes.data();
+  message.size = static_cast<std::uint32_t>(bytes.size());
+  ASSERT_TRUE(message.is<SessionEnd>());
+  EXPECT_EQ(message.read<SessionEnd>()->steps, 7U);
+  EXPECT_EQ(message.read<SessionEnd>()->step_limit, 0U);
+  message.size = 20;  // within a field
+  EXPECT_THROW(message.read<SessionEnd>(), ros::Exception);
 }
 
 }  // namespace

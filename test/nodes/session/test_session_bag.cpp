@@ -66,8 +66,12 @@ protected:
     return message;
   }
 
-  /** Length of the last two fields of the message, which earlier versions do not have [B]. */
-  std::size_t newFields() const { return sizeof(std::uint32_t) + info_.commit.size() + sizeof(std::int32_t); }
+  /** Length of the fields from `commit` on, which earlier versions do not have; the later ones are empty [B]. */
+  std::size_t newFields() const
+  {
+    constexpr std::size_t kPlace = 3 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
+    return sizeof(std::uint32_t) + info_.commit.size() + sizeof(std::int32_t) + kPlace;
+  }
 
   std::string refusal() const
   {

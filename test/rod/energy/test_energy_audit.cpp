@@ -141,6 +141,59 @@ TEST(EnergyAudit, FrictionOfAWallStopsASlidingWire)
   EXPECT_NEAR(balance.error(), 0.0, 1e-2 * kinetic);
 }
 
+// Backward Euler: Σ m (v_k − v_{k−1})·v_k = ½ m v_n² + Σ ½ m |v_k − v_{k−1}|².
+TEST(EnergyAudit, TheWorkOfAStreamOnAFreeWireIsItsKineticEnergyAndTheLossOfTheIntegration)
+{
+  KktStepper stepper(discretiseUniformly(uniformWire(0.1, kEi, kRadius, kDensity), 21), freeBoundary(), Environment(),
+                     StepperSettings());
+  State state = stepper.initialState(0.0, 0.0);
+  const Eigen::Vector3d stream(0.1, 0.3, -0.2);
+  const double per_length = 0.15;
+  const double dt = 1e-3;
+  StepInput input;
+  input.drags = uniformStream(stepper.discretisation(), per_length * Eigen::Matrix3d::Identity(), stream);
+  const EnergyBalance balance = audited(stepper, state, input, 20, dt);
+  const double mass = massOf(stepper.discretisation());
+  const double decay = 1.0 / (1.0 + 0.1 * per_length * dt / mass);
+  double loss = 0.0;
+  for (int k = 0; k < 20; ++k)
+    loss += 0.5 * mass * stream.squaredNorm() * std::pow(std::pow(decay, k) * (1.0 - decay), 2);
+  const double kinetic = 0.5 * mass * stream.squaredNorm() * std::pow(1.0 - std::pow(decay, 20), 2);
+  EXPECT_NEAR(balance.kinetic, kinetic, 1e-7 * kinetic);
+  EXPECT_NEAR(balance.stream, kinetic + loss, 1e-7 * kinetic);
+  EXPECT_NEAR(balance.iteration, 0.0, 1e-7 * kinetic);
+  EXPECT_NEAR(balance.error(), 0.0, 1e-7 * kinetic);
+}
+
+/** A wire that is pushed 5 mm out of the introducer across a stream, which bends it. */
+EnergyBalance pushIntoAStream(double dt)
+{
+  KktStepper stepper(discretiseUniformly(uniformWire(0.15, kEi, kRadius, kDensity), 76), Boundary(), Environment(),
+                     StepperSettings());
+  State state = stepper.initialState(0.06, 0.0);
+  StepInput input;
+  input.inserted_length = 0.06;
+  input.drags = uniformStream(stepper.discretisation(), Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0, 0.5, 0.0));
+  EnergyAudit audit;
+  stepper.setObserver(&audit);
+  const int steps = static_cast<int>(std::lround(0.2 / dt));
+  for (int k = 0; k < steps; ++k)
+  {
+    input.inserted_length += 0.025 * dt;
+    EXPECT_TRUE(advanceFreely(stepper, state, input, dt).solved);
+  }
+  return audit.balance();
+}
+
+TEST(EnergyAudit, ClosesOnAWireThatAStreamBendsWhileItIsPushed)
+{
+  const EnergyBalance balance = pushIntoAStream(5e-4);
+  EXPECT_GT(balance.bending, 1e-5);
+  EXPECT_GT(balance.stream, 0.9 * balance.bending);  // the stream bends the wire, and the hand only guides it
+  EXPECT_LT(std::abs(balance.iteration), 1e-3 * balance.stream);
+  EXPECT_LT(std::abs(balance.error()), 1e-3 * balance.stream);
+}
+
 TEST(EnergyAudit, StoresTheWorkOfATurningHandInAWireHeldAtBothEnds)
 {
   Boundary boundary = freeBoundary();

@@ -84,5 +84,15 @@ TEST_F(NamePictureTest, NamesOutsideOfTheViewAreNotDrawn)
       ASSERT_EQ(QColor(image.pixel(x, y)), QColor(Qt::white));
 }
 
+TEST_F(NamePictureTest, TheEdgeOfTheViewCutsNoName)
+{
+  names[0].offset = {140.0, 40.0};
+  const visualization::Rectangle box = names[0].box(view);
+  ASSERT_GT(box.high.x(), 150.0);
+  const QImage image = over(Qt::white);
+  const int left = 300 - static_cast<int>(names[0].size.x());
+  EXPECT_NE(QColor(image.pixel(left + 1, 60)), QColor(Qt::white)) << "the ground of the whole name is in the view";
+}
+
 }  // namespace
 }  // namespace endovascular_sim::rviz_plugin

@@ -1,14 +1,20 @@
 #include "rviz_plugin/widget/session_widget.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <QApplication>
 #include <QComboBox>
+#include <QDialog>
 #include <QDoubleSpinBox>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
 #include <QtTest/QTest>
 
 #include "rviz_plugin/widget/force_gauge.h"
@@ -32,6 +38,10 @@ public:
     pressures.emplace_back(instrument, difference);
   }
   void moveCArm(const std::string& view) override { views.push_back(view); }
+  void setSubject(const std::string& subject) override { subjects.push_back(subject); }
+  void alignExpert(std::uint8_t alignment) override { alignments.push_back(alignment); }
+  void setBlood(const BloodRequest& request) override { bloods.push_back(request); }
+  void controlPlayer(std::uint8_t command, double value) override { played.emplace_back(command, value); }
 
   HandVelocity lastHeld() const { return held.empty() ? HandVelocity{} : held.back(); }
 
@@ -40,6 +50,10 @@ public:
   std::vector<Request> requests;
   std::vector<std::pair<std::string, double>> pressures;
   std::vector<std::string> views;
+  std::vector<std::pair<std::uint8_t, double>> played;
+  std::vector<std::string> subjects;
+  std::vector<int> alignments;
+  std::vector<BloodRequest> bloods;
   int confirmed = 0;
 };
 
@@ -223,7 +237,7 @@ TEST_F(SessionWidgetTest, BringsTheBalloonToATypedPressure)
 
 TEST_F(SessionWidgetTest, ChoosesTheInstrumentOfEachNewStep)
 {
-  session.present.scene.steps = {{"balloon", ""}, {"wire", ""}, {"balloon", ""}};
+  session.present.scene.steps = {{"balloon", "", ""}, {"wire", "", ""}, {"balloon", "", ""}};
   widget->refresh();
   EXPECT_EQ(child<QComboBox>("instruments")->currentText(), "balloon") << "before the first message";
   QTest::keyClick(widget.get(), Qt::Key_PageDown);
@@ -237,7 +251,7 @@ TEST_F(SessionWidgetTest, ChoosesTheInstrumentOfEachNewStep)
 
 TEST_F(SessionWidgetTest, EndsAMotionWhenItChoosesTheInstrumentOfAStep)
 {
-  session.present.scene.steps = {{"wire", ""}, {"balloon", ""}};
+  session.present.scene.steps = {{"wire", "", ""}, {"balloon", "", ""}};
   session.present.has_step = true;
   session.present.step.step_of_procedure = 1;
   widget->refresh();
@@ -246,6 +260,53 @@ TEST_F(SessionWidgetTest, EndsAMotionWhenItChoosesTheInstrumentOfAStep)
   session.present.step.step_of_procedure = 2;
   widget->refresh();
   EXPECT_TRUE(session.lastHeld().isZero());
+}
+
+/** Sends a press or a release with a time stamp [ms]. */
+void sendKey(QWidget& widget, QEvent::Type type, int key, ulong time)
+{
+  QKeyEvent event(type, key, Qt::NoModifier);
+  event.setTimestamp(time);
+  QCoreApplication::sendEvent(&widget, &event);
+}
+
+TEST_F(SessionWidgetTest, AHeldKeyDoesNotDriveTheInstrumentOfTheNextStep)
+{
+  session.present.scene.steps = {{"wire", "", ""}, {"balloon", "", ""}};
+  session.present.has_step = true;
+  session.present.step.step_of_procedure = 1;
+  widget->refresh();
+  sendKey(*widget, QEvent::KeyPress, Qt::Key_Up, 1000);
+  EXPECT_EQ(session.lastHeld().instrument, "wire");
+  session.present.step.step_of_procedure = 2;
+  widget->refresh();
+  EXPECT_EQ(child<QLabel>("notice")->text(), "now: balloon; a key that is held acts after its release");
+  for (ulong time = 2000; time < 4000; time += 40)  // repetition of the key, which a busy Qt does not recognise
+  {
+    sendKey(*widget, QEvent::KeyRelease, Qt::Key_Up, time);
+    sendKey(*widget, QEvent::KeyPress, Qt::Key_Up, time);
+    EXPECT_TRUE(session.lastHeld().isZero()) << time;
+  }
+  sendKey(*widget, QEvent::KeyRelease, Qt::Key_Up, 4100);
+  sendKey(*widget, QEvent::KeyPress, Qt::Key_Up, 4300);
+  EXPECT_EQ(session.lastHeld().instrument, "balloon");
+  EXPECT_GT(session.lastHeld().insertion, 0.0);
+}
+
+TEST_F(SessionWidgetTest, TheBalloonDoesNotChangeTheSizeOfThePanel)
+{
+  const QSize size = widget->sizeHint(), least = widget->minimumSizeHint();
+  QTest::keyClick(widget.get(), Qt::Key_PageDown);
+  widget->refresh();
+  QCoreApplication::processEvents();  // of the layouts
+  ASSERT_TRUE(child<QPushButton>("inflate")->isVisible());
+  EXPECT_EQ(widget->sizeHint(), size);
+  EXPECT_EQ(widget->minimumSizeHint(), least);
+  session.present.scene.instruments.pop_back();
+  widget->refresh();
+  QCoreApplication::processEvents();  // of the layouts
+  EXPECT_EQ(widget->minimumSizeHint().width(), least.width()) << "a scene without a balloon";
+  EXPECT_LT(widget->minimumSizeHint().height(), least.height());
 }
 
 TEST_F(SessionWidgetTest, SaysWhyAnInstrumentDoesNotMove)
@@ -293,6 +354,20 @@ TEST_F(SessionWidgetTest, MarksThePeakOfTheForce)
   const QImage image = gauge->grab().toImage();
   const QColor mark(image.pixel(image.width() * 80 / 100 - 2, image.height() - 4));
   EXPECT_GT(mark.red(), mark.blue() + 60) << mark.name().toStdString();
+}
+
+TEST_F(SessionWidgetTest, ThePeakMarkLeavesTheTextOfTheGaugeReadable)
+{
+  auto* gauge = child<ForceGauge>("gauge");
+  const auto middle = [&](double peak)
+  {
+    session.present.peak_force = {peak, 0.0};
+    widget->refresh();
+    gauge->setFormat("text");  // the same for both
+    const QImage image = gauge->grab().toImage();
+    return image.copy(image.width() * 70 / 100, image.height() / 3, image.width() * 25 / 100, image.height() / 3);
+  };
+  EXPECT_EQ(middle(2.5), middle(4.0)) << "the mark lies above and below the text";
 }
 
 TEST_F(SessionWidgetTest, KeepsItsWidthWhateverItsTextsAre)
@@ -359,6 +434,138 @@ TEST_F(SessionWidgetTest, IsEmptyWithoutASession)
   QTest::mouseClick(child<QPushButton>("push"), Qt::LeftButton);
   EXPECT_TRUE(session.lastHeld().isZero());
   EXPECT_EQ(child<QLabel>("insertion")->text(), "–");
+}
+
+/** Verdict of a lesson that is not passed. */
+Verdict failedLesson()
+{
+  Verdict verdict;
+  verdict.run = 1;
+  verdict.text = "lesson not passed: errors 3, at most 0";
+  verdict.page = "/results/metrics.html";
+  verdict.marks = {{"time from the first motion", "s", 16.2, 60.0, 8.1, true},
+                   {"errors", "", 3.0, 0.0, std::nan(""), false}};
+  return verdict;
+}
+
+TEST_F(SessionWidgetTest, ShowsTheVerdictOfALessonAgainstLimitsAndExpert)
+{
+  auto* dialog = child<QDialog>("verdict_dialog");
+  EXPECT_FALSE(dialog->isVisible());
+  session.present.verdict = failedLesson();
+  widget->refresh();
+  EXPECT_TRUE(dialog->isVisible());
+  EXPECT_EQ(child<QLabel>("verdict")->text(), "lesson not passed: errors 3, at most 0");
+  const auto* marks = child<QTableWidget>("marks");
+  ASSERT_EQ(marks->rowCount(), 2);
+  EXPECT_EQ(marks->item(0, 1)->text(), "16.2 s");
+  EXPECT_EQ(marks->item(0, 2)->text(), "60.0 s");
+  EXPECT_EQ(marks->item(0, 3)->text(), "8.1 s");
+  EXPECT_EQ(marks->item(1, 3)->text(), "–");
+  EXPECT_NE(marks->item(0, 1)->foreground(), marks->item(1, 1)->foreground());
+}
+
+TEST_F(SessionWidgetTest, ShowsAVerdictOnceAndTheNextOneAgain)
+{
+  auto* dialog = child<QDialog>("verdict_dialog");
+  session.present.verdict = failedLesson();
+  widget->refresh();
+  QTest::mouseClick(child<QPushButton>("close_verdict"), Qt::LeftButton);
+  widget->refresh();
+  EXPECT_FALSE(dialog->isVisible());
+  session.present.verdict.run = 2;
+  widget->refresh();
+  EXPECT_TRUE(dialog->isVisible());
+}
+
+TEST_F(SessionWidgetTest, BeginsTheLessonAgainOrShowsTheExpertFromTheVerdict)
+{
+  session.present.verdict = failedLesson();
+  widget->refresh();
+  QTest::mouseClick(child<QPushButton>("try_again"), Qt::LeftButton);
+  EXPECT_EQ(session.requests.back(), Request::kReset);
+  EXPECT_FALSE(child<QDialog>("verdict_dialog")->isVisible());
+  session.present.verdict.run = 2;
+  widget->refresh();
+  QTest::mouseClick(child<QPushButton>("show_me"), Qt::LeftButton);
+  EXPECT_EQ(session.requests.back(), Request::kShowExpert);
+}
+
+TEST_F(SessionWidgetTest, ClosesTheRecordingOfALessonOnceWhenItsLastStepIsDone)
+{
+  session.present.scene.is_guided = true;
+  session.present.is_recording = true;
+  session.present.has_step = true;
+  session.present.step.outcome = ProcedureStep::RUNNING;
+  session.present.step.step_of_procedure = session.present.step.steps_of_procedure = 2;
+  widget->refresh();
+  EXPECT_TRUE(session.requests.empty());
+  session.present.step.outcome = ProcedureStep::DONE;
+  widget->refresh();
+  widget->refresh();
+  EXPECT_EQ(session.requests, std::vector<Request>{Request::kStopRecording});
+}
+
+TEST_F(SessionWidgetTest, ShowsTheExpertInAnAlignmentWithTheDistanceOfTheTips)
+{
+  auto* alignments = child<QComboBox>("expert_alignments");
+  EXPECT_FALSE(alignments->isVisible());
+  ExpertState& expert = session.present.expert.emplace();
+  expert.alignment = ExpertState::PHASE;
+  expert.distance = 0.0123;
+  widget->refresh();
+  EXPECT_TRUE(alignments->isVisible());
+  EXPECT_EQ(alignments->currentIndex(), ExpertState::PHASE);
+  EXPECT_EQ(child<QLabel>("tip_distance")->text(), "tips 12.3 mm apart");
+  expert.distance = std::nan("");
+  widget->refresh();
+  EXPECT_EQ(child<QLabel>("tip_distance")->text(), "");
+  Q_EMIT alignments->activated(ExpertState::INSERTION);
+  EXPECT_EQ(session.alignments, std::vector<int>{ExpertState::INSERTION});
+}
+
+TEST_F(SessionWidgetTest, NamesTheTraineeAndGivesTheKeysBack)
+{
+  session.present.subject = "trainee 7";
+  widget->refresh();
+  auto* subject = child<QLineEdit>("subject");
+  EXPECT_EQ(subject->text(), "trainee 7");
+  subject->setFocus();
+  subject->setText("trainee 8");
+  widget->refresh();
+  EXPECT_EQ(subject->text(), "trainee 8");  // not replaced while it is typed
+  QTest::keyClick(subject, Qt::Key_Return);
+  EXPECT_EQ(session.subjects, std::vector<std::string>{"trainee 8"});
+  EXPECT_TRUE(widget->hasFocus());
+}
+
+TEST_F(SessionWidgetTest, ShowsPressureWhereBloodFlowsAndChangesTheCirculation)
+{
+  EXPECT_FALSE(child<QPushButton>("adenosine")->isVisible());
+  BloodState blood;
+  blood.heart_rate = 70.0 / 60.0;
+  blood.mean_pressure = 12.4e3;
+  blood.lines.resize(1);
+  blood.lines[0].name = "catheter";
+  session.present.blood = blood;
+  widget->refresh();
+  EXPECT_TRUE(child<QWidget>("pressure_trace")->isVisible());
+  EXPECT_EQ(child<QSpinBox>("heart_rate")->value(), 70);
+  EXPECT_EQ(child<QSpinBox>("mean_pressure")->value(), 93);
+  QTest::mouseClick(child<QPushButton>("adenosine"), Qt::LeftButton);
+  ASSERT_EQ(session.bloods.size(), 1U);
+  EXPECT_EQ(session.bloods[0].hyperaemia, 1);
+  EXPECT_TRUE(std::isnan(session.bloods[0].heart_rate));
+  auto* rate = child<QSpinBox>("heart_rate");
+  rate->setFocus();
+  rate->setValue(120);
+  QTest::keyClick(rate, Qt::Key_Return);
+  ASSERT_EQ(session.bloods.size(), 2U);
+  EXPECT_NEAR(session.bloods[1].heart_rate, 2.0, 1e-12);
+  EXPECT_EQ(session.bloods[1].hyperaemia, -1);
+  session.present.player.emplace();
+  widget->refresh();
+  EXPECT_FALSE(child<QPushButton>("adenosine")->isEnabled()) << "nobody changes a recording";
 }
 
 }  // namespace

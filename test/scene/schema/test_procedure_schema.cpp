@@ -112,7 +112,7 @@ TEST(SceneProcedure, IsRequiredByADriveWithSourceProcedure)
 
 TEST(SceneProcedure, OfALessonHasHintsAndPassMarksAndAPersonWhoDrives)
 {
-  for (const char* name : {"lesson_bifurcation", "lesson_catheter_needs_wire", "lesson_lad_stent"})
+  for (const char* name : {"lesson_bifurcation", "lesson_catheter_needs_wire", "lesson_lad_stent", "lesson_pressure"})
   {
     const Scene scene = loadScene(std::string(PROJECT_DIR "/config/scenes/") + name + ".yaml");
     ASSERT_TRUE(scene.procedure.has_value()) << name;

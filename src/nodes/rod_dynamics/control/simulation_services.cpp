@@ -60,6 +60,13 @@ SimulationServices::SimulationServices(const ros::NodeHandle& node, Operations o
     return true;
   };
   servers_.push_back(node_.advertiseService(names::kSimulationStep, step));
+  const boost::function<bool(ContinueRecording::Request&, ContinueRecording::Response&)> continue_recording =
+      [this](ContinueRecording::Request& /*request*/, ContinueRecording::Response& response)
+  {
+    operations_.continue_recording(response);
+    return true;
+  };
+  servers_.push_back(node_.advertiseService(names::kContinueRecording, continue_recording));
   const boost::function<bool(GoToStep::Request&, GoToStep::Response&)> go_to_step =
       [this](GoToStep::Request& request, GoToStep::Response& response)
   { return answer(names::kGoToStep, response, [&] { return operations_.go_to_step(request.step); }); };

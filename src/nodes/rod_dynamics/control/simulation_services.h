@@ -12,6 +12,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include "endovascular_sim/ContinueRecording.h"
 #include "endovascular_sim/StateFile.h"
 #include "endovascular_sim/StepSimulation.h"
 
@@ -34,6 +35,8 @@ public:
     std::function<std::string(std::uint32_t step)> go_to_step;
     /** Fills the response, also for a refusal. */
     std::function<void(const StepSimulation::Request&, StepSimulation::Response&)> step;
+    /** Fills the response with the present state, from which a recording continues. */
+    std::function<void(ContinueRecording::Response&)> continue_recording;
   };
 
   /** @param state_folder folder of all states; empty: any */
