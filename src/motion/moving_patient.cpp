@@ -69,6 +69,16 @@ void MovingPatient::setBreathingRate(double rate)
   breath_.setRate(rate);
 }
 
+void MovingPatient::setControls(const MotionControls& controls)
+{
+  const std::string refusal = refusalOf(controls);
+  if (!refusal.empty())
+    throw std::invalid_argument(refusal);
+  heart_.setRate(controls.heart_rate);
+  breath_.setRate(controls.breathing_rate);
+  breath_.hold(controls.breath_held);
+}
+
 void MovingPatient::setHeartPhase(double phase, double rate)
 {
   checkPhase(phase, "phase of the heart");

@@ -8,6 +8,7 @@
 #include "motion/body/patient_motion.h"
 #include "motion/cycle/cycle.h"
 #include "motion/map/map_bounds.h"
+#include "motion/motion_controls.h"
 
 namespace endovascular_sim
 {
@@ -35,6 +36,11 @@ public:
   void setBreathingRate(double rate);
   /** Holds the breath from the next end of an expiration on, or lets it go. */
   void holdBreath(bool held) { breath_.hold(held); }
+  /** Rates from the next cycles on, and breath-hold.
+   *  @throws std::invalid_argument for values that refusalOf() refuses @{ */
+  void setControls(const MotionControls& controls);
+  MotionControls controls() const { return {heart_.nextRate(), breath_.nextRate(), breath_.held()}; }
+  /** @} */
   /** Sets the heart by a clock outside, such as that of the flow of blood.
    *  @param phase in [0, 1), 0 at end-diastole
    *  @param rate of the present beat [Hz]

@@ -95,6 +95,10 @@ constexpr auto kTipPressure = "hemodynamics/tip_pressure";
 constexpr auto kHemodynamicControls = "hemodynamics/controls";
 constexpr auto kSetHemodynamics = "hemodynamics/set";
 
+constexpr auto kMotionState = "motion/state";
+constexpr auto kMotionControls = "motion/controls";
+constexpr auto kSetMotion = "motion/set";
+
 constexpr auto kSensors = "sensors/";  ///< followed by the name of the sensor
 
 constexpr auto kDiagnostics = "/diagnostics";
