@@ -4,6 +4,7 @@
 
 #include "motion/moving_patient.h"
 #include "scene/model/scene.h"
+#include "scene/scene_vessel.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim
@@ -23,8 +24,8 @@ struct PatientMotion
 
 /** Places the motion of a scene in its vessel and checks it.
  *  @param scene with the key `motion`
- *  @throws InputError with key and remedy, see motion::makeMovingPatient(); and if the introducer lies where the patient
- *          moves */
+ *  @throws InputError with key and remedy, see motion::makeMovingPatient(); and if the introducer lies where the
+ * patient moves */
 PatientMotion makePatientMotion(const scene::Scene& scene, const vessel::Vessel& vessel, const scene::EntryPose& entry);
 
 /** Motion of the patient in a simulation: it advances with every step, and the wall with it. */

@@ -20,6 +20,7 @@
 #include "simulation/balloon_treatments.h"
 #include "simulation/blood_coupling.h"
 #include "simulation/handle.h"
+#include "simulation/motion_coupling.h"
 
 namespace endovascular_sim::simulation
 {
@@ -117,6 +118,9 @@ public:
   BloodCoupling* blood() { return blood_.get(); }
   /** @} */
 
+  /** Motion of the patient; null in a scene without the key `motion`. */
+  const MotionCoupling* motion() const { return motion_.get(); }
+
   /** Stops adaptive sampling: the nodes keep their positions along the wire. */
   void keepSampling() { samples_ = false; }
 
@@ -203,7 +207,8 @@ private:
   BalloonTreatments treatments_;
   std::unique_ptr<BloodCoupling> blood_;  ///< null: blood does not flow
   std::function<const std::vector<Eigen::Vector3d>&()> wall_;
-  std::vector<double> pressures_;  ///< commanded pressure of every instrument [Pa]
+  std::unique_ptr<MotionCoupling> motion_;  ///< null: the patient rests
+  std::vector<double> pressures_;           ///< commanded pressure of every instrument [Pa]
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;
