@@ -9,8 +9,8 @@ namespace
 {
 
 constexpr double kLatticeSpacing = 6e-3;     // of the displacements [m]
-constexpr std::int64_t kFastStep = 2;        // lattice planes between samples of kFast
-constexpr std::int64_t kSamplesPerKnot = 3;  // between which displacements are linear
+constexpr double kSampleDistance = 2.6e-3;   // largest one of kFast along the main axis [m]
+constexpr double kKnotDistance = 7.6e-3;     // between which displacements are linear [m]
 constexpr double kScale = 1.0 / 16777216.0;  // of a sample
 constexpr double kMargin = 4e-3;             // against the rounding of positions [voxel]
 constexpr std::int64_t kRounding = std::int64_t{1} << 23;
@@ -41,6 +41,9 @@ MovedTissue::MovedTissue(const VolumeProjection& projection, const motion::Heart
     occupied_(projection.occupied()),
     frame_(frame),
     at_rest_(motion::MotionMap(frame, {}, {}), 0.0),
+    step_(std::max<std::int64_t>(1, static_cast<std::int64_t>(kSampleDistance / grid_.spacing.minCoeff()))),
+    knot_(std::max<std::int64_t>(step_,
+                                 static_cast<std::int64_t>(kKnotDistance / grid_.spacing.minCoeff()) / step_ * step_)),
     lattice_(at_rest_.box(), kLatticeSpacing)
 {
   Eigen::AlignedBox3d box;  // of the places that move [voxel]
@@ -161,7 +164,7 @@ double MovedTissue::sumMovedFast(const LatticeRay& ray, const Part& part, const 
   Position from = place(part.first);
   for (std::int64_t plane = part.first; plane < part.last;)
   {
-    const std::int64_t next = std::min(plane + kSamplesPerKnot * part.step, part.last);
+    const std::int64_t next = std::min(plane + knot_, part.last);
     const Position to = place(next);
     sum += sumOfSegment(from, to, static_cast<int>((next - plane) / part.step));
     from = to;
@@ -187,7 +190,7 @@ std::vector<float> MovedTissue::change(const XRayGeometry& geometry, int samples
                                        MotionSampling sampling)
 {
   const bool fast = sampling == MotionSampling::kFast;
-  const std::int64_t step = fast ? kFastStep : 1;
+  const std::int64_t step = fast ? step_ : 1;
   sumResting(geometry, samples, step);
   std::vector<float> change(resting_.size(), 0.0F);
   if (fast)

@@ -31,8 +31,8 @@ enum class MotionSampling
  * VolumeProjection that lie where something moves, with trilinear interpolation and the places X of BodyMotion.
  * Densities are carried along: a lung that is stretched keeps its density.
  *
- *  kFast takes every second sample, and interpolates the displacements from a lattice of 6 mm, linearly between every
- * third sample of these. */
+ *  kFast takes a sample every 2.5 mm along the main axis, or every lattice plane, and interpolates the displacements
+ * from a lattice of 6 mm, linearly over 7.5 mm. */
 class MovedTissue
 {
 public:
@@ -75,6 +75,7 @@ private:
   std::array<std::ptrdiff_t, 3> stride_{};
   std::vector<std::uint8_t> filled_;  ///< f in steps of tissue, where something moves
 
+  std::int64_t step_, knot_;  ///< between samples and displacements of kFast [plane]
   DisplacementLattice lattice_;
   std::optional<CArmPose> resting_pose_;  ///< of resting_
   std::int64_t resting_step_ = 0;         ///< of resting_ [plane]
