@@ -133,7 +133,8 @@ double Fluoroscope::measuredSignal() const
   std::size_t count = 0;
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column)
-      if (std::hypot(row - centre, column - centre) <= radius && collimator_.share(row, column) > 0.99F)
+      if ((row - centre) * (row - centre) + (column - centre) * (column - centre) <= radius * radius &&
+          collimator_.share(row, column) > 0.99F)
       {
         sum += static_cast<double>(background_[static_cast<std::size_t>(row) * static_cast<std::size_t>(n) +
                                                static_cast<std::size_t>(column)]);

@@ -71,15 +71,17 @@ struct Place
 Place equidistantPlace(double value, int nodes, double max)
 {
   const double x = value / max * (nodes - 1);
-  const double cell = std::clamp(std::floor(x), 0.0, nodes - 2.0);
+  const int cell = std::clamp(static_cast<int>(x), 0, nodes - 2);
   return {static_cast<std::size_t>(cell), static_cast<float>(x - cell)};
 }
 
 Place quadraticPlace(double value, int nodes, double max)
 {
+  if (value == 0.0)
+    return {0, 0.0F};
   const double n = nodes - 1;
   const double relative = value / max;
-  const double cell = std::clamp(std::floor(std::sqrt(std::max(relative, 0.0)) * n), 0.0, n - 1.0);
+  const double cell = std::clamp(static_cast<int>(std::sqrt(std::max(relative, 0.0)) * n), 0, nodes - 2);
   return {static_cast<std::size_t>(cell), static_cast<float>((relative * n * n - cell * cell) / (2.0 * cell + 1.0))};
 }
 
@@ -149,14 +151,20 @@ Response SignalTable::at(const ArealDensities& densities) const
   constexpr std::size_t kRow = kIodineNodes, kPlane = kRow * kBoneNodes;
   const std::array<float, 4>* node = nodes_.data() + t.cell * kPlane + b.cell * kRow + i.cell;
   std::array<float, 4> value{};
-  for (std::size_t k = 0; k < 4; ++k)
+  const auto interpolate = [&](const auto& along)
   {
-    const auto along = [&](std::size_t offset)
-    { return node[offset][k] + i.weight * (node[offset + 1][k] - node[offset][k]); };
-    const float low = along(0) + b.weight * (along(kRow) - along(0));
-    const float high = along(kPlane) + b.weight * (along(kPlane + kRow) - along(kPlane));
-    value[k] = low + t.weight * (high - low);
-  }
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      const float low = along(0, k) + b.weight * (along(kRow, k) - along(0, k));
+      const float high = along(kPlane, k) + b.weight * (along(kPlane + kRow, k) - along(kPlane, k));
+      value[k] = low + t.weight * (high - low);
+    }
+  };
+  if (i.weight == 0.0F)  // beside the vessel
+    interpolate([&](std::size_t offset, std::size_t k) { return node[offset][k]; });
+  else
+    interpolate([&](std::size_t offset, std::size_t k)
+                { return node[offset][k] + i.weight * (node[offset + 1][k] - node[offset][k]); });
   return {value[0], value[1], value[2]};
 }
 

@@ -13,6 +13,7 @@ constexpr double kSampleDistance = 2.6e-3;   // largest one of kFast along the m
 constexpr double kKnotDistance = 7.6e-3;     // between which displacements are linear [m]
 constexpr double kScale = 1.0 / 16777216.0;  // of a sample
 constexpr double kMargin = 4e-3;             // against the rounding of positions [voxel]
+constexpr double kFixedPoint = 4294967296.0;
 constexpr std::int64_t kRounding = std::int64_t{1} << 23;
 
 /** Steps of soft tissue in which tissue fills bone: 8/5 · 1050/1920 = 7/8 step of tissue per step of bone. */
@@ -78,8 +79,8 @@ double MovedTissue::sumOfSegment(const Position& from, const Position& to, int c
     const double most = size_[axis] - 1.0 - kMargin;
     const double begin = std::clamp(from[static_cast<std::size_t>(axis)] - low_[axis], 0.0, most);
     const double end = std::clamp(to[static_cast<std::size_t>(axis)] - low_[axis], 0.0, most);
-    at[axis] = fixedPoint(begin) + kRounding;
-    step[axis] = (fixedPoint(end) + kRounding - at[axis]) / count;
+    at[axis] = static_cast<std::int64_t>(begin * kFixedPoint) + kRounding;
+    step[axis] = static_cast<std::int64_t>((end - begin) * (kFixedPoint / count));
   }
   std::uint64_t sum = 0;
   for (int k = 0; k < count; ++k, at[0] += step[0], at[1] += step[1], at[2] += step[2])

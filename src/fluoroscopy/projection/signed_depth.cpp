@@ -74,6 +74,8 @@ void addTriangle(const Corner& a, const Corner& second, const Corner& third, dou
   const int row1 = lastPixel(std::max({a.row, b.row, c.row}), pixels);
   const int column0 = firstPixel(std::min({a.column, b.column, c.column}));
   const int column1 = lastPixel(std::max({a.column, b.column, c.column}), pixels);
+  if (row0 > row1 || column0 > column1)
+    return;  // between the rays, as most triangles of a fine mesh, or outside of the image
   const std::int64_t bias_a = edgeBias(b, c), bias_b = edgeBias(c, a), bias_c = edgeBias(a, b);
   const std::int64_t step_a = (b.row - c.row) * kSubpixels;
   const std::int64_t step_b = (c.row - a.row) * kSubpixels;
