@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "benchmark/x_ray/coronary_view.h"
-#include "common/time/processor_time.h"
+#include "benchmark/x_ray/median_time.h"
+#include "benchmark/x_ray/motion_tables.h"
 #include "fluoroscopy/projection/vessel_projection.h"
 #include "fluoroscopy/projection/wire_projection.h"
 #include "geometry/loop_subdivision.h"
@@ -18,21 +18,6 @@ namespace
 constexpr double kStep = 1e-3;             // between two poses of a moving C-arm [rad]
 constexpr int kFramesOfRefinement = 13;    // after the first frame at rest
 constexpr float kSteelBehindBody = 0.02F;  // effective coefficient of steel behind the body [m²/kg]
-
-/** Median of the processor times of a repeated task [ms]. */
-double medianOf(int times, const std::function<void()>& work)
-{
-  std::vector<double> all;
-  for (int k = 0; k < times; ++k)
-  {
-    const double begin = processorSeconds();
-    work();
-    all.push_back(1e3 * (processorSeconds() - begin));
-  }
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
-}
 
 void addPixels(CoronaryView& view, int pixels, int times, Section& section)
 {
@@ -78,7 +63,7 @@ Section frames(CoronaryView& view, const StudyOptions& options, const Progress& 
   double done = 0.0;
   for (const int pixels : sides)
   {
-    progress(0.7 * done / static_cast<double>(sides.size()), std::to_string(pixels) + "² pixels");
+    progress(0.6 * done / static_cast<double>(sides.size()), std::to_string(pixels) + "² pixels");
     addPixels(view, pixels, options.quick ? 5 : 25, section);
     done += 1.0;
   }
@@ -94,7 +79,7 @@ Section triangles(CoronaryView& view, const StudyOptions& options, const Progres
   const int levels = options.quick ? 1 : 2;
   for (int level = 0; level <= levels; ++level)
   {
-    progress(0.7 + 0.1 * level, std::to_string(level) + " subdivisions");
+    progress(0.6 + 0.1 * level, std::to_string(level) + " subdivisions");
     const geometry::TriangleMesh mesh = geometry::loopSubdivision(view.vessel.mesh, level);
     std::vector<std::string> row = {std::to_string(mesh.triangles.size())};
     for (const int pixels : {256, 512, 1024})
@@ -118,7 +103,9 @@ std::vector<TableSpec> xRayTables()
            {"pixels per side", "image_raw [ms]", "with display [ms]", "instruments [ms]", "after a movement [ms]",
             "refinement [ms]", "pixels with instruments"},
            ""},
-          {"x_ray_triangles", "Path lengths in the vessel", {"triangles", "256² [ms]", "512² [ms]", "1024² [ms]"}, ""}};
+          {"x_ray_triangles", "Path lengths in the vessel", {"triangles", "256² [ms]", "512² [ms]", "1024² [ms]"}, ""},
+          motionCostTable(),
+          motionErrorTable()};
 }
 
 std::vector<Section> xRayStudy(const StudyOptions& options, const Progress& progress)
@@ -128,6 +115,9 @@ std::vector<Section> xRayStudy(const StudyOptions& options, const Progress& prog
   std::vector<Section> sections;
   sections.push_back(frames(view, options, progress));
   sections.push_back(triangles(view, options, progress));
+  progress(0.9, "moving patient");
+  sections.push_back(motionCost(view, options));
+  sections.push_back(motionErrors(view, options));
   return sections;
 }
 
