@@ -209,9 +209,7 @@ Section motionErrors(CoronaryView& view, const StudyOptions& /*options*/)
   section.text =
       "Areal density of soft tissue in the moved body, 256² rays. Fast: displacements are interpolated. Earlier phase: "
       "besides, the change is that of a phase at the tolerance. Frame: image at rest at 256² with the fast change at "
-      "128², "
-      "against the exact projection at 256². 1 kg/m² changes "
-      "the signal by 2 %.";
+      "128², against the exact projection at 256². 1 kg/m² changes the signal by about 2 %.";
   const MovingAdult adult(view.vessel);
   const fluoroscopy::VolumeProjection projection(*simulation::patientVolume(view.scene, view.vessel).volume);
   fluoroscopy::MovedTissue tissue(projection, adult.heart());
