@@ -7,6 +7,17 @@
 namespace endovascular_sim::procedure
 {
 
+namespace
+{
+
+/** Point of the instruments in the vessel at rest. */
+Eigen::Vector3d placeAt(const simulation::Simulation& simulation, double inserted)
+{
+  return simulation.atRest(simulation::pointAt(simulation, inserted));
+}
+
+}  // namespace
+
 double bentLength(const instrument::Instrument& instrument)
 {
   double length = 0.0, bent = 0.0;
@@ -41,20 +52,19 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     InstrumentView view;
     view.hand = simulation.hand(k);
     view.outside = simulation.isOutside(k);
-    view.tip = simulation::pointAt(simulation, std::max(0.0, view.hand.insertion));
+    view.tip = placeAt(simulation, std::max(0.0, view.hand.insertion));
     view.tip_rotation = simulation::tipRotation(simulation, k);
     const double bent = bentLength(scene.instruments[static_cast<std::size_t>(k)].instrument);
     if (bent > 0.0 && view.hand.insertion > 2.0 * bent)
     {
       view.bend.length = bent;
-      view.bend.base = simulation::pointAt(simulation, view.hand.insertion - bent);
-      view.bend.shaft =
-          (view.bend.base - simulation::pointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
+      view.bend.base = placeAt(simulation, view.hand.insertion - bent);
+      view.bend.shaft = (view.bend.base - placeAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
     }
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (balloon && middle > 0.0)
-      view.balloon = simulation::pointAt(simulation, middle);
+      view.balloon = placeAt(simulation, middle);
     observation.instruments.push_back(view);
   }
   markCovered(observation);

@@ -31,12 +31,30 @@ Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
   return vector - normal.dot(vector) * normal;
 }
 
-/** Motion of the wire's surface over the wall per turn of a node about its axis [m/rad]. */
-Vector3d motionPerTurn(const State& state, int node, const Vector3d& normal, double radius)
+Vector3d chordDirection(const State& state, int node)
 {
   const int before = std::max(node - 1, state.first_node);
   const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
-  return radius * normal.cross((state.position[after] - state.position[before]).normalized());
+  return (state.position[after] - state.position[before]).normalized();
+}
+
+/** Motion of the wire's surface over the wall per turn of a node about its axis [m/rad]. */
+Vector3d motionPerTurn(const State& state, int node, const Vector3d& normal, double radius)
+{
+  return radius * normal.cross(chordDirection(state, node));
+}
+
+/** Motion of the wall at a node [m]. */
+Vector3d wallTravel(const SurfaceMotion* surface, int node)
+{
+  return surface != nullptr && surface->wall != nullptr ? surface->wall->displacement[node]
+                                                        : Vector3d(Vector3d::Zero());
+}
+
+/** Turn of the wall about the wire's axis at a node [rad]. */
+double wallTurn(const State& state, const SurfaceMotion& surface, int node)
+{
+  return surface.wall != nullptr ? surface.wall->turn[node].dot(chordDirection(state, node)) : 0.0;
 }
 
 }  // namespace
@@ -66,6 +84,8 @@ void WallFriction::collect(const State& state, const Motion& begin, const std::v
     Vector3d dragged = state.friction_stretch[i];
     if (surface != nullptr && surface->slide != nullptr)
       dragged += (*surface->slide)[i];
+    if (surface != nullptr && surface->wall != nullptr)
+      dragged -= wallTravel(surface, i);
     const Vector3d travel = state.position[i] - begin[i];
     contact.stretch = tangential(dragged + travel, contact.normal);
     contact.dual = tangential(state.friction_stretch[i], contact.normal) / slip_;
@@ -76,7 +96,7 @@ void WallFriction::collect(const State& state, const Motion& begin, const std::v
     if (surface != nullptr)
     {
       contact.around = motionPerTurn(state, i, contact.normal, surface->radius[i]);
-      contact.begin_angle = surface->begin_angle[i];
+      contact.begin_angle = surface->begin_angle[i] + wallTurn(state, *surface, i);
     }
     contacts_.push_back(contact);
   }
@@ -250,10 +270,12 @@ void WallFriction::finish(State& state, const Motion& begin, const SurfaceMotion
     const Vector3d normal = state.wall_force[i].normalized();
     if (surface != nullptr && surface->slide != nullptr)
       stretch += (*surface->slide)[i];
+    if (surface != nullptr && surface->wall != nullptr)
+      stretch -= wallTravel(surface, i);
     stretch = tangential(stretch + state.position[i] - begin[i], normal);
     if (surface != nullptr)
     {
-      const double angle = surface->angle[i] - surface->begin_angle[i];
+      const double angle = surface->angle[i] - surface->begin_angle[i] - wallTurn(state, *surface, i);
       if (angle != 0.0)
         stretch += angle * motionPerTurn(state, i, normal, surface->radius[i]);
     }

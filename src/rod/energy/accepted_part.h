@@ -56,6 +56,7 @@ struct AcceptedPart
   double layer_friction_push;                    ///< work of the friction between layers along the wire [J]
   double layer_friction_turn;                    ///< about the wire [J]
   double insertion_work;                         ///< of the hands, on the potentials at fixed nodes [J]
+  const contact::WallTravel* wall = nullptr;     ///< motion of wall and fluid in the part; null: they rest
 };
 
 }  // namespace endovascular_sim::rod

@@ -23,7 +23,10 @@ namespace endovascular_sim::rod
  *
  *  Inextensibility is a constraint, bending Gauss–Newton, contact an active set of one-sided springs re-evaluated
  * inside the step, friction lagged in its normal force. A solve that would move a point further than its free distance
- * is truncated; contacts are detected again, and the same step is solved again. The instruments are a LayerModel. */
+ * is truncated; contacts are detected again, and the same step is solved again. The instruments are a LayerModel.
+ *
+ *  Where the wall moves (StepInput::wall), the solves of a step begin with the nodes carried by the wall: their places
+ *  in the resting wall are those before the step, so that only solves change them. */
 class KktStepper : public Stepper
 {
 public:
@@ -63,6 +66,8 @@ private:
   bool gainedEnergy(const State& before, const State& state, double dt);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   void placeEnds(State& state, const StepInput& input, double dt);
+  void carry(State& state, const StepInput& input);
+  double wallWork(const State& state) const;
   bool iterate(State& state, const StepInput& input, double dt, StepReport& report);
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve, const LayerSlides* slides);
   bool solve(const State& state, double dt, bool corrected, StepReport& report);
@@ -77,6 +82,7 @@ private:
   void updateTorques(State& state, const StepInput& input);
   void collectFriction(const State& state, double dt, bool first_solve);
   SurfaceMotion surfaceMotion() const;
+  const contact::WallTravel* wall() const { return carried_ ? &travel_ : nullptr; }
   void noteForces(double dt);
   void showPart(const State& before, const State& after, const StepInput& input, double dt);
   PotentialEnergy potentialEnergy(const State& state, int from);
@@ -95,6 +101,8 @@ private:
   TwistAction twist_;
   SurfaceTwist surface_twist_;
   bool turned_ = false;           ///< a handle turns in the present step
+  bool carried_ = false;          ///< the wall moves in the present step
+  contact::WallTravel travel_;    ///< motion of the wall in the present part of a step
   bool with_turns_ = false;       ///< the unknowns of the present solve include the turns of the surface
   ContactSolver::Motion motion_;  ///< increment of every node in the last solve [m]
   PhaseTimer* timer_ = nullptr;
