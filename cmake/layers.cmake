@@ -22,7 +22,7 @@ set(LAYERS
   "robot         : drive                                      :"
   "haptics       : drive                                      :"
   "sensor        : common                                     :"
-  "scene         : fluoroscopy robot sensor flow              :"
+  "scene         : fluoroscopy robot sensor flow motion       :"
   "simulation    : intervention scene                         :"
   "procedure     : simulation                                 :"
   "results       : procedure                                  :"
