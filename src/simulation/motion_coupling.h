@@ -5,6 +5,7 @@
 #include "motion/contact/moving_wall.h"
 #include "motion/moving_patient.h"
 #include "scene/model/scene.h"
+#include "scene/scene_vessel.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim
