@@ -13,6 +13,7 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kSticking = 0.99;       // square of the stretch of a node that sticks, over that of the slip
 constexpr double kLeastForce = 1e-9;     // N: smaller wall forces have no friction
 constexpr double kLeastArm = 1e-9;       // m/rad: where a wire stands on the wall, friction does not act on its twist
 constexpr double kTolerance = 0.1;       // deviation from Coulomb's law, share of the sum of all limits
@@ -31,17 +32,12 @@ Vector3d tangential(const Vector3d& vector, const Vector3d& normal)
   return vector - normal.dot(vector) * normal;
 }
 
-Vector3d chordDirection(const State& state, int node)
-{
-  const int before = std::max(node - 1, state.first_node);
-  const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
-  return (state.position[after] - state.position[before]).normalized();
-}
-
 /** Motion of the wire's surface over the wall per turn of a node about its axis [m/rad]. */
 Vector3d motionPerTurn(const State& state, int node, const Vector3d& normal, double radius)
 {
-  return radius * normal.cross(chordDirection(state, node));
+  const int before = std::max(node - 1, state.first_node);
+  const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
+  return radius * normal.cross((state.position[after] - state.position[before]).normalized());
 }
 
 /** Motion of the wall at a node [m]. */
@@ -52,9 +48,9 @@ Vector3d wallTravel(const SurfaceMotion* surface, int node)
 }
 
 /** Turn of the wall about the wire's axis at a node [rad]. */
-double wallTurn(const State& state, const SurfaceMotion& surface, int node)
+double wallTurn(const SurfaceMotion& surface, int node)
 {
-  return surface.wall != nullptr ? surface.wall->turn[node].dot(chordDirection(state, node)) : 0.0;
+  return surface.wall_turn != nullptr ? (*surface.wall_turn)[node] : 0.0;
 }
 
 }  // namespace
@@ -90,13 +86,16 @@ void WallFriction::collect(const State& state, const Motion& begin, const std::v
     contact.stretch = tangential(dragged + travel, contact.normal);
     contact.dual = tangential(state.friction_stretch[i], contact.normal) / slip_;
     contact.guess = contact.stretch;
-    if (first_solve)
+    // A node that sticks to a wall whose velocity changes keeps sticking: its own velocity is that of the wall before.
+    const bool sticks = surface != nullptr && surface->wall != nullptr &&
+                        state.friction_stretch[i].squaredNorm() < kSticking * slip_ * slip_;
+    if (first_solve && !sticks)
       contact.guess = tangential(dragged + dt * state.velocity[i], contact.normal);
     contact.inertia = mass != nullptr ? (*mass)[i] / (dt * dt) : 0.0;
     if (surface != nullptr)
     {
       contact.around = motionPerTurn(state, i, contact.normal, surface->radius[i]);
-      contact.begin_angle = surface->begin_angle[i] + wallTurn(state, *surface, i);
+      contact.begin_angle = surface->begin_angle[i] + wallTurn(*surface, i);
     }
     contacts_.push_back(contact);
   }
@@ -275,7 +274,7 @@ void WallFriction::finish(State& state, const Motion& begin, const SurfaceMotion
     stretch = tangential(stretch + state.position[i] - begin[i], normal);
     if (surface != nullptr)
     {
-      const double angle = surface->angle[i] - surface->begin_angle[i] - wallTurn(state, *surface, i);
+      const double angle = surface->angle[i] - surface->begin_angle[i] - wallTurn(*surface, i);
       if (angle != 0.0)
         stretch += angle * motionPerTurn(state, i, normal, surface->radius[i]);
     }

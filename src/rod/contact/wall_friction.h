@@ -21,6 +21,8 @@ struct SurfaceMotion
   const std::vector<double>& angle;                     ///< angle of every node at the present iterate [rad], n
   const std::vector<Eigen::Vector3d>* slide = nullptr;  ///< slide over every node in the step [m], n; null: none
   const contact::WallTravel* wall = nullptr;            ///< motion of the wall at every node, n; null: it rests
+  /** Turn of the wall about the wire's axis at every node, relative to the frames of the angles [rad], n. */
+  const std::vector<double>* wall_turn = nullptr;
 };
 
 /** Twist angle of a node: the mean over its edges [rad]. */

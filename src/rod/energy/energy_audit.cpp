@@ -74,11 +74,7 @@ Eigen::Vector3d wallTravel(const AcceptedPart& part, int node)
 /** Turn of the wall about the wire's axis at a node in a part [rad]. */
 double wallTurn(const AcceptedPart& part, int node)
 {
-  if (part.wall == nullptr)
-    return 0.0;
-  const int before = std::max(node - 1, part.after.first_node);
-  const int after = std::min(node + 1, part.rod.nodes() - 1);
-  return part.wall->turn[node].dot((part.after.position[after] - part.after.position[before]).normalized());
+  return part.wall_turn != nullptr ? (*part.wall_turn)[node] : 0.0;
 }
 
 int hands(const State& state)

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "common/archive.h"
 #include "rod/kkt/layer_stack.h"
 #include "rod/kkt/single_layer.h"
 #include "rod/kkt/turn_truncation.h"
 #include "rod/sampling/resampling.h"
 #include "rod/stepping/solution_observer.h"
+#include "rod/twist/bishop_frames.h"
 
 namespace endovascular_sim::rod
 {
@@ -121,6 +124,26 @@ double KktStepper::streamWork(const State& state, double dt) const
   return work;
 }
 
+/** Finds the turn of the wall about the wire's axis at every node, as the change of a twist angle that would follow it.
+ *  Angles refer to Bishop frames, which turn by the motion, too. Where the layer model counts their turns, those of the
+ *  wall are in space. @param state before it is carried */
+void KktStepper::findWallTurns(const State& state)
+{
+  const int n = model_.rod.nodes();
+  wall_turn_.assign(static_cast<std::size_t>(n), 0.0);
+  turnsBy(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, travel_.displacement, frame_turn_);
+  for (int j = layers_->firstCountedTurn(); j < n - 1; ++j)
+    frame_turn_[j] = 0.0;
+  for (int i = state.first_node; i < n; ++i)
+  {
+    const int before = std::max(i - 1, state.first_node);
+    const int after = std::min(i + 1, n - 1);
+    const double length = model_.rod.position[after] - model_.rod.position[before];
+    wall_turn_[i] = travel_.turn[i].dot(state.position[after] - state.position[before]) / length -
+                    nodeAngle(frame_turn_, i, state.first_node);
+  }
+}
+
 /** Upper bound of the work of a moving wall in a step that was solved [J]. */
 double KktStepper::wallWork(const State& state) const
 {
@@ -200,9 +223,16 @@ void KktStepper::carry(State& state, const StepInput& input)
     return;
   PhaseTimer::Scope scope(*timer_, Phase::kContact);
   input.wall->move(input.wall_from, input.wall_to, state.position, state.first_node, travel_);
+  findWallTurns(state);
   for (int i = model_.conditions.firstFreeNode(state); i < model_.rod.nodes(); ++i)
+  {
     if (!model_.conditions.isDistalHeld(i))
       state.position[i] += travel_.displacement[i];
+    if (state.wall_force[i].isZero(0.0))
+      continue;
+    state.wall_force[i] += travel_.turn[i].cross(state.wall_force[i]);
+    state.friction_stretch[i] += travel_.turn[i].cross(state.friction_stretch[i]);
+  }
   contacts_.carry(state, *input.wall);
 }
 
@@ -423,7 +453,8 @@ void KktStepper::collectFriction(const State& state, double dt, bool first_solve
 SurfaceMotion KktStepper::surfaceMotion() const
 {
   const LayerSlides* slides = layers_->slides();
-  return {model_.rod.radius, surface_begin_, surface_angle_, slides != nullptr ? &slides->surface : nullptr, wall()};
+  return {model_.rod.radius, surface_begin_, surface_angle_, slides != nullptr ? &slides->surface : nullptr, wall(),
+          wallTurn()};
 }
 
 void KktStepper::setContactRadii(const std::vector<double>& radii)
@@ -492,7 +523,8 @@ void KktStepper::showPart(const State& before, const State& after, const StepInp
                       layers.turn,
                       layers_->insertionWork(before, after) +
                           assembly_.guideRestForce(after) * (after.inserted_length - before.inserted_length),
-                      wall()});
+                      wall(),
+                      wallTurn()});
   layers_->restore(after);
 }
 

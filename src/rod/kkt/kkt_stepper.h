@@ -67,6 +67,7 @@ private:
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   void placeEnds(State& state, const StepInput& input, double dt);
   void carry(State& state, const StepInput& input);
+  void findWallTurns(const State& state);
   double wallWork(const State& state) const;
   bool iterate(State& state, const StepInput& input, double dt, StepReport& report);
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve, const LayerSlides* slides);
@@ -83,6 +84,7 @@ private:
   void collectFriction(const State& state, double dt, bool first_solve);
   SurfaceMotion surfaceMotion() const;
   const contact::WallTravel* wall() const { return carried_ ? &travel_ : nullptr; }
+  const std::vector<double>* wallTurn() const { return carried_ ? &wall_turn_ : nullptr; }
   void noteForces(double dt);
   void showPart(const State& before, const State& after, const StepInput& input, double dt);
   PotentialEnergy potentialEnergy(const State& state, int from);
@@ -100,11 +102,13 @@ private:
 
   TwistAction twist_;
   SurfaceTwist surface_twist_;
-  bool turned_ = false;           ///< a handle turns in the present step
-  bool carried_ = false;          ///< the wall moves in the present step
-  contact::WallTravel travel_;    ///< motion of the wall in the present part of a step
-  bool with_turns_ = false;       ///< the unknowns of the present solve include the turns of the surface
-  ContactSolver::Motion motion_;  ///< increment of every node in the last solve [m]
+  bool turned_ = false;             ///< a handle turns in the present step
+  bool carried_ = false;            ///< the wall moves in the present step
+  contact::WallTravel travel_;      ///< motion of the wall in the present part of a step
+  std::vector<double> wall_turn_;   ///< its turn about the wire's axis at every node [rad]
+  std::vector<double> frame_turn_;  ///< of every edge, by that motion [rad]
+  bool with_turns_ = false;         ///< the unknowns of the present solve include the turns of the surface
+  ContactSolver::Motion motion_;    ///< increment of every node in the last solve [m]
   PhaseTimer* timer_ = nullptr;
   bool fading_ = true;                ///< the state may have offsets from a change of nodes
   bool hit_iteration_limit_ = false;  ///< the last step was accepted at the limit of solves
