@@ -4,6 +4,7 @@
 
 #include "motion/moving_patient.h"
 #include "scene/model/scene.h"
+#include "scene/scene_vessel.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim
@@ -41,6 +42,9 @@ public:
 
   /** Patient after the last step: phases, and the map from the resting patient to the moved one. */
   const motion::MovingPatient& patient() const { return patient_; }
+
+  /** Advances by a step. */
+  void advance() { patient_.advance(); }
 
   void archive(Archive& archive);
 

@@ -20,6 +20,7 @@
 #include "simulation/balloon_treatments.h"
 #include "simulation/blood_coupling.h"
 #include "simulation/handle.h"
+#include "simulation/motion_coupling.h"
 
 namespace endovascular_sim::simulation
 {
@@ -117,6 +118,14 @@ public:
   BloodCoupling* blood() { return blood_.get(); }
   /** @} */
 
+  /** Moves the patient from the next step on; before the first step. */
+  void setMotion(std::unique_ptr<MotionCoupling> motion) { motion_ = std::move(motion); }
+
+  /** Motion of the patient; null in a scene without the key `motion`. @{ */
+  const MotionCoupling* motion() const { return motion_.get(); }
+  MotionCoupling* motion() { return motion_.get(); }
+  /** @} */
+
   /** Stops adaptive sampling: the nodes keep their positions along the wire. */
   void keepSampling() { samples_ = false; }
 
@@ -201,7 +210,8 @@ private:
   std::vector<double> hand_forces_, hand_positions_;
   rod::HemostaticValve valve_;
   BalloonTreatments treatments_;
-  std::unique_ptr<BloodCoupling> blood_;  ///< null: blood does not flow
+  std::unique_ptr<BloodCoupling> blood_;    ///< null: blood does not flow
+  std::unique_ptr<MotionCoupling> motion_;  ///< null: the patient rests
   std::function<const std::vector<Eigen::Vector3d>&()> wall_;
   std::vector<double> pressures_;  ///< commanded pressure of every instrument [Pa]
   PhaseTimer timer_;

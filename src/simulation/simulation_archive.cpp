@@ -145,6 +145,8 @@ void Simulation::archive(Archive& archive)
   archive(treatments_);
   if (blood_)
     archive(*blood_);
+  if (motion_)
+    archive(*motion_);
 }
 
 /** Checks the state against the wire and the scene. A distal end far from its motion would take very many sub-steps. */
