@@ -52,8 +52,7 @@ void observePatient(const simulation::Simulation& simulation, Observation& obser
 /** Point of the instruments' centreline, as place in the resting patient [m]. */
 Eigen::Vector3d restingPointAt(const simulation::Simulation& simulation, double inserted)
 {
-  const Eigen::Vector3d point = simulation::pointAt(simulation, inserted);
-  return simulation.motion() != nullptr ? simulation.motion()->patient().map().pullBack(point) : point;
+  return simulation::restingPlace(simulation, simulation::pointAt(simulation, inserted));
 }
 
 }  // namespace
@@ -75,8 +74,7 @@ Observation observe(const scene::Scene& scene, const simulation::Simulation& sim
     {
       view.bend.length = bent;
       view.bend.base = restingPointAt(simulation, view.hand.insertion - bent);
-      view.bend.shaft =
-          (view.bend.base - restingPointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
+      view.bend.shaft = (view.bend.base - restingPointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
     }
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;

@@ -17,8 +17,9 @@ Tip Observation::tip(int instrument) const
 procedure::BranchPosition Observation::branch(int instrument) const
 {
   const double insertion = hand(instrument).insertion;
-  return insertion > 0.0 ? world_.branches()->at(atRest(simulation::pointAt(simulation_, insertion)))
-                         : procedure::BranchPosition();
+  return insertion > 0.0
+             ? world_.branches()->at(simulation::restingPlace(simulation_, simulation::pointAt(simulation_, insertion)))
+             : procedure::BranchPosition();
 }
 
 const flow::FlowField* Observation::blood() const
@@ -36,25 +37,21 @@ double Observation::bloodFlow(const Eigen::Vector3d& point) const
 {
   if (blood() == nullptr)
     return std::nan("");
-  return simulation_.blood()->places().flowAt(*blood(), simulation_.blood()->paths().locate(atRest(point)));
+  return simulation_.blood()->places().flowAt(
+      *blood(), simulation_.blood()->paths().locate(simulation::restingPlace(simulation_, point)));
 }
 
 double Observation::bloodPressure(const Eigen::Vector3d& point) const
 {
   if (blood() == nullptr)
     return std::nan("");
-  return simulation_.blood()->places().pressureAt(*blood(), simulation_.blood()->paths().locate(atRest(point)));
+  return simulation_.blood()->places().pressureAt(
+      *blood(), simulation_.blood()->paths().locate(simulation::restingPlace(simulation_, point)));
 }
 
 const motion::MovingPatient* Observation::motion() const
 {
   return simulation_.motion() != nullptr ? &simulation_.motion()->patient() : nullptr;
-}
-
-/** Place of a point in the resting patient, which vessel and branches describe [m]. */
-Eigen::Vector3d Observation::atRest(const Eigen::Vector3d& point) const
-{
-  return motion() != nullptr ? motion()->map().pullBack(point) : point;
 }
 
 const std::vector<simulation::WallContact>& Observation::forces() const

@@ -90,8 +90,6 @@ public:
   const std::vector<simulation::TimedEvent>& events() const { return simulation_.events(); }
 
 private:
-  Eigen::Vector3d atRest(const Eigen::Vector3d& point) const;
-
   const simulation::Simulation& simulation_;
   const World& world_;
   const simulation::Sensors& sensors_;
