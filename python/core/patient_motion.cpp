@@ -99,7 +99,7 @@ void bindMotion(py::module_& module)
   py::class_<Motion>(module, "Motion", R"(
 Motion of the patient after a step, a copy: phases, and the map from the resting patient to the moved one.
 
-World.mesh and World.branches are those of the resting patient; positions of instruments are in the moved one.)")
+World.vertices and World.branches are those of the resting patient; positions of instruments are in the moved one.)")
       .def_readonly("heart_phase", &Motion::heart_phase, "Phase of the beat, 0 to 1 from end-diastole.")
       .def_readonly("heart_rate", &Motion::heart_rate, "Rate of the present beat [Hz].")
       .def_readonly("systole", &Motion::systole, "True from end-diastole to end-systole.")
