@@ -271,8 +271,10 @@ void Simulation::resample()
   if (!samples_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
     return;
   PhaseTimer::Scope scope(timer_, Phase::kSampling);
-  if (sampling_->update(state_))
-    stepper_->resample(sampling_->discretisation());
+  if (!sampling_->update(state_, &positionsAtRest()))
+    return;
+  stepper_->resample(sampling_->discretisation());
+  positions_at_rest_.clear();
 }
 
 /** Sets the least radius for contact at every node. */
