@@ -71,8 +71,8 @@ PatientMotion makePatientMotion(const scene::Scene& scene, const vessel::Vessel&
   motion::MotionSettings settings = scene.motion->patient;
   settings.heart.rate = scene.motion->heart_rate;  // from the first beat on
   settings.breathing.rate = scene.motion->breathing_rate;
-  motion::MovingPatient patient = motion::makeMovingPatient(vessel.centreline, settings, scene.solver.time_step,
-                                                            {scene.file, "motion.patient."});
+  motion::MovingPatient patient =
+      motion::makeMovingPatient(vessel.centreline, settings, scene.solver.time_step, {scene.file, "motion.patient."});
   patient.holdBreath(scene.motion->breath_held);
   requireRestingEntry(scene, patient.map().frame().fade, entry);
   const motion::MapBounds bounds = motion::motionBounds(patient.motion(), motion::lumenPoints(vessel.centreline));
@@ -85,6 +85,11 @@ void MotionCoupling::archive(Archive& archive)
   archive(tag);
   requireLoaded(tag == kTag, "holds no motion of the patient");
   archive(patient_);
+  if (!archive.reading())
+    return;
+  const double heart = patient_.heart().rate(), breath = patient_.breath().rate();
+  requireLoaded(motion::refusalOf({heart, breath, false}).empty() && motion::refusalOf(patient_.controls()).empty(),
+                "holds an impossible heart rate or breathing rate");
 }
 
 }  // namespace endovascular_sim::simulation
