@@ -29,12 +29,12 @@ TEST(TreatmentDrawing, DrawsBalloonsAndStents)
   message.balloons.push_back(body(0.02, 0.0));
   message.stents.push_back(body(0.02, 1e-4));
   TreatmentDrawing drawing;
-  EXPECT_EQ(drawing.update(message), "");
+  EXPECT_EQ(drawing.update(message, nodes::restingMap()), "");
   EXPECT_FALSE(drawing.balloons().triangles.empty());
   EXPECT_FALSE(drawing.struts().triangles.empty());
   for (const Eigen::Vector3f& position : drawing.struts().positions)
     EXPECT_TRUE(position.allFinite());
-  EXPECT_EQ(drawing.update({}), "");
+  EXPECT_EQ(drawing.update({}, nodes::restingMap()), "");
   EXPECT_TRUE(drawing.balloons().positions.empty() && drawing.struts().positions.empty());
 }
 
@@ -47,7 +47,7 @@ TEST(TreatmentDrawing, DrawsNothingForInvalidBodies)
     TreatmentVisual message;
     message.balloons.push_back(body(0.02, 0.0));
     message.stents.push_back(stent);
-    const std::string result = drawing.update(message);
+    const std::string result = drawing.update(message, nodes::restingMap());
     EXPECT_TRUE(drawing.balloons().positions.empty() && drawing.struts().positions.empty());
     return result;
   };

@@ -41,6 +41,7 @@ public:
   void setSubject(const std::string& subject) override { subjects.push_back(subject); }
   void alignExpert(std::uint8_t alignment) override { alignments.push_back(alignment); }
   void setBlood(const BloodRequest& request) override { bloods.push_back(request); }
+  void setMotion(const MotionRequest& request) override { motions.push_back(request); }
   void controlPlayer(std::uint8_t command, double value) override { played.emplace_back(command, value); }
 
   HandVelocity lastHeld() const { return held.empty() ? HandVelocity{} : held.back(); }
@@ -54,6 +55,7 @@ public:
   std::vector<std::string> subjects;
   std::vector<int> alignments;
   std::vector<BloodRequest> bloods;
+  std::vector<MotionRequest> motions;
   int confirmed = 0;
 };
 
