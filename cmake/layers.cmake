@@ -17,7 +17,7 @@ set(LAYERS
   "intervention  : instrument vessel                          :"
   "patient       : image vessel                               :"
   "phantom       : patient                                    :"
-  "fluoroscopy   : instrument patient                         : PNG::PNG ${XRAYLIB_LIBRARY}"
+  "fluoroscopy   : instrument motion patient                  : PNG::PNG ${XRAYLIB_LIBRARY}"
   "drive         : common                                     :"
   "robot         : drive                                      :"
   "haptics       : drive                                      :"
