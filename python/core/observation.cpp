@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "blood.h"
 #include "hardware.h"
+#include "patient_motion.h"
 #include "zeroed.h"
 
 namespace endovascular_sim::python
@@ -31,6 +32,7 @@ struct Snapshot : Zeroed
   py::array_t<ForceRow> forces;
   py::dict sensors;
   py::object blood;
+  py::object motion;
 };
 
 std::string represented(const Branch& branch)
@@ -60,13 +62,15 @@ py::object snapshotOf(const session::Observation& observation, double time_step)
                            pointArray(observation.nodes(), static_cast<std::size_t>(observation.firstNode())),
                            forcesOf(observation),
                            readingsOf(observation, time_step),
-                           bloodOf(observation)});
+                           bloodOf(observation),
+                           motionOf(observation)});
 }
 
 void bindObservation(py::module_& module)
 {
   bindRows();
   bindBlood(module);
+  bindMotion(module);
   py::class_<Branch>(module, "Branch", "Position in the branches of the vessel.")
       .def_readonly("name", &Branch::name, "Name of the branch; \"outside\" outside of the vessel.")
       .def_readonly("index", &Branch::index, "Index in World.branches; -1 outside of the vessel.")
@@ -81,7 +85,8 @@ void bindObservation(py::module_& module)
       .def_readonly("nodes", &Snapshot::nodes, "As Session.nodes.")
       .def_readonly("forces", &Snapshot::forces, "As Session.forces.")
       .def_readonly("sensors", &Snapshot::sensors, "As Session.sensors.")
-      .def_readonly("blood", &Snapshot::blood, "As Session.blood.");
+      .def_readonly("blood", &Snapshot::blood, "As Session.blood.")
+      .def_readonly("motion", &Snapshot::motion, "As Session.motion.");
 }
 
 }  // namespace endovascular_sim::python

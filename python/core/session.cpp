@@ -11,6 +11,7 @@
 #include "errors.h"
 #include "hardware.h"
 #include "observation.h"
+#include "patient_motion.h"
 #include "signals.h"
 #include "simulation/instrument_tip.h"
 
@@ -485,6 +486,7 @@ manager. One thread at a time may use it: others raise UsageError, as every use 
   bindStates(bound);
   bindHardware(bound);
   bindBlood(bound);
+  bindMotion(bound);
   module.def("_session_of_pickle", &continued);
   module.attr("World").attr("session") = py::cpp_function(
       [](const std::shared_ptr<SharedWorld>& world, std::uint64_t seed, bool results, bool clients)

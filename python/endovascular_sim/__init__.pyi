@@ -3,6 +3,7 @@ from ._core import (
     Branch as Branch,
     Error as Error,
     InputError as InputError,
+    Motion as Motion,
     Observation as Observation,
     Reading as Reading,
     Rollout as Rollout,

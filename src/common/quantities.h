@@ -93,6 +93,7 @@ constexpr Quantity kPressureRange{"ranges of a pressure", "Pa", D::kPressure, 10
 
 // Circulation.
 constexpr Quantity kHeartRate{"heart rates", "Hz", D::kFrequency, 0.4, 4.0, 0.05, 10.0};
+constexpr Quantity kBreathingRate{"breathing rates", "Hz", D::kFrequency, 0.05, 1.0, 0.01, 10.0};
 constexpr Quantity kBloodPressure{"blood pressures", "Pa", D::kPressure, 300.0, 3e4, 10.0, 1e5};
 constexpr Quantity kBloodFlow{"flows of blood", "m³/s", D::kOther, 1e-8, 5e-4, 1e-12, 5e-3};
 constexpr Quantity kStrokeVolume{"stroke volumes", "m³", D::kOther, 2e-5, 3e-4, 1e-7, 5e-3};

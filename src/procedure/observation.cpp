@@ -31,30 +31,55 @@ void markCovered(Observation& observation)
           observation.instruments[outer].hand.insertion > observation.instruments[k].hand.insertion;
 }
 
+namespace
+{
+
+void observePatient(const simulation::Simulation& simulation, Observation& observation)
+{
+  observation.hyperaemia = simulation.blood() != nullptr && simulation.blood()->controls().hyperaemia;
+  if (simulation.motion() == nullptr)
+    return;
+  const motion::MovingPatient& patient = simulation.motion()->patient();
+  observation.breath_asked = patient.breath().held();
+  observation.breath_held = patient.breath().standing();
+  if (simulation.blood() != nullptr && simulation.blood()->controls().heart_rate == 0.0)
+    return;  // arrest
+  observation.heart.rate = patient.heart().rate();
+  observation.heart.phase = patient.heart().phase();
+  observation.heart.systole = patient.motion().settings().heart.systolicShare(patient.heart().rate());
+}
+
+/** Point of the instruments' centreline, as place in the resting patient [m]. */
+Eigen::Vector3d restingPointAt(const simulation::Simulation& simulation, double inserted)
+{
+  return simulation.atRest(simulation::pointAt(simulation, inserted));
+}
+
+}  // namespace
+
 Observation observe(const scene::Scene& scene, const simulation::Simulation& simulation)
 {
   Observation observation;
   observation.time = simulation.time();
-  observation.hyperaemia = simulation.blood() != nullptr && simulation.blood()->controls().hyperaemia;
+  observePatient(simulation, observation);
   for (int k = 0; k < simulation.instruments(); ++k)
   {
     InstrumentView view;
     view.hand = simulation.hand(k);
     view.outside = simulation.isOutside(k);
-    view.tip = simulation::pointAt(simulation, std::max(0.0, view.hand.insertion));
+    view.tip = restingPointAt(simulation, std::max(0.0, view.hand.insertion));
     view.tip_rotation = simulation::tipRotation(simulation, k);
     const double bent = bentLength(scene.instruments[static_cast<std::size_t>(k)].instrument);
     if (bent > 0.0 && view.hand.insertion > 2.0 * bent)
     {
       view.bend.length = bent;
-      view.bend.base = simulation::pointAt(simulation, view.hand.insertion - bent);
-      view.bend.shaft =
-          (view.bend.base - simulation::pointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
+      view.bend.base = restingPointAt(simulation, view.hand.insertion - bent);
+      view.bend.shaft = (view.bend.base - restingPointAt(simulation, view.hand.insertion - 1.5 * bent)).normalized();
     }
     const auto& balloon = scene.instruments[static_cast<std::size_t>(k)].instrument.balloon;
     const double middle = balloon ? view.hand.insertion - balloon->from_tip - 0.5 * balloon->length : 0.0;
     if (balloon && middle > 0.0)
-      view.balloon = simulation::pointAt(simulation, middle);
+      view.balloon = restingPointAt(simulation, middle);
     observation.instruments.push_back(view);
   }
   markCovered(observation);

@@ -13,17 +13,26 @@
 namespace endovascular_sim::procedure
 {
 
-/** Observable state of one instrument. */
+/** Observable state of one instrument. Points lie in the vessel at rest, also where the patient moves: goals, branches
+ *  and lengths of paths do not contain the motion of the heart. */
 struct InstrumentView
 {
   simulation::HandState hand;
   bool outside = false;                           ///< true if the instrument has left the introducer
   bool covered = false;                           ///< true if the tip lies inside another instrument
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip in the patient frame; the introducer if outside [m]
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< place at rest; the introducer if outside [m]
   double tip_rotation = 0.0;                      ///< rotation of the material at the tip, as that of the handle [rad]
   BranchPosition branch_position;                 ///< position of the tip in the tree of branches
   TipBend bend;                                   ///< bend of the tip; straight if outside
-  std::optional<Eigen::Vector3d> balloon;         ///< centre of the balloon if it is in the vessel, patient frame [m]
+  std::optional<Eigen::Vector3d> balloon;         ///< centre of the balloon if it is in the vessel, at rest [m]
+};
+
+/** Observable beat of the heart. */
+struct HeartView
+{
+  double rate = 0.0;     ///< of the present beat; 0: the heart does not move [Hz]
+  double phase = 0.0;    ///< of the beat, 0 at end-diastole [1]
+  double systole = 0.0;  ///< share of the beat from end-diastole to end-systole [1]
 };
 
 /** Observation of the scripted operator at one time. */
@@ -31,7 +40,10 @@ struct Observation
 {
   double time = 0.0;  ///< simulated time [s]
   std::vector<InstrumentView> instruments;
-  bool hyperaemia = false;  ///< of the circulation; false without flow
+  bool hyperaemia = false;    ///< of the circulation; false without flow
+  bool breath_asked = false;  ///< true: the patient is asked to hold the breath; false without motion
+  bool breath_held = false;   ///< true: the breath is held, at the end of an expiration; false without motion
+  HeartView heart;
 };
 
 /** Length from the tip of an instrument to the proximal end of its foremost curve; 0 for a straight instrument [m]. */

@@ -69,10 +69,20 @@ const std::vector<drive::HandCommand>& Operator::next(const simulation::Simulati
   return advance(static_cast<double>(simulation.steps() + 1) * scene_.solver.time_step);
 }
 
+/** True while a step runs that the operator does, not a person. */
+bool Operator::asksThePatient() const
+{
+  return begun_ && progress_ == Progress::kRunning && !scene_.procedure->guided;
+}
+
 std::optional<bool> Operator::wantedHyperaemia() const
 {
-  const bool is_waiting = begun_ && progress_ == Progress::kRunning && !scene_.procedure->guided;
-  return is_waiting ? step().hyperaemia : std::nullopt;
+  return asksThePatient() ? step().hyperaemia : std::nullopt;
+}
+
+std::optional<bool> Operator::wantedBreathHold() const
+{
+  return asksThePatient() ? step().breath_held : std::nullopt;
 }
 
 void Operator::observe(const Observation& observation)

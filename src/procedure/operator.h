@@ -57,6 +57,9 @@ public:
    * does the steps. */
   std::optional<bool> wantedHyperaemia() const;
 
+  /** Breath-hold that the scripted operator sets in the present step, in the same way. */
+  std::optional<bool> wantedBreathHold() const;
+
   Progress progress() const { return progress_; }
   /** Description of the failure: step, reason, position of the tip; empty without a failure. */
   const std::string& failure() const { return failure_; }
@@ -75,6 +78,7 @@ private:
   void fail();
   void archiveRecords(Archive& archive);
   const scene::StepScene& step() const { return steps_[current_]; }
+  bool asksThePatient() const;
   void describe(StepRecord& record, const StepRecord* before) const;
   std::string viewOf(std::size_t step) const;
 

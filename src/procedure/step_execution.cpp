@@ -19,6 +19,8 @@ constexpr double kProgress = 2e-3;        // displacement of the tip that counts
 constexpr double kModeLimit = 8.0;        // time limit of each mode of a recovery [s]
 constexpr double kPullBackSpeed = 0.02;   // speed of pulling back [m/s]
 constexpr double kFastestTurn = 2.0;      // of a retry [rad/s]
+constexpr double kRestBegin = 1.0 / 3.0;  // share of diastole after which the heart rests
+constexpr double kRestEnd = 0.75;         // share of diastole before the contraction of the atria
 constexpr double kRecoveryDepth = 0.05;   // distance of the tip behind the tip of the support after its withdrawal [m]
 
 using scene::StepAction;
@@ -81,7 +83,7 @@ Progress StepExecution::observe(const Observation& observation, OperatorHands& h
 /** Duration for which the goal of the step must hold [s]. */
 double StepExecution::holdTime() const
 {
-  const bool is_of_person = setting_.guided && (step_.action == StepAction::kInflate || step_.hyperaemia.has_value());
+  const bool is_of_person = setting_.guided && (step_.action == StepAction::kInflate || asksThePatient());
   return is_of_person ? step_.duration : step_.until.held;
 }
 
@@ -96,11 +98,40 @@ bool StepExecution::isReached(const Observation& observation) const
 {
   if (setting_.guided && step_.action == StepAction::kInflate)
     return hasPressure(at(observation, active_));
-  if (setting_.guided && step_.hyperaemia)
-    return observation.hyperaemia == *step_.hyperaemia;
+  if (setting_.guided && asksThePatient())
+    return isAsked(observation);
   if (step_.action == StepAction::kWait || step_.action == StepAction::kInflate)
-    return observation.time - begin_time_ >= step_.duration - 1e-9;
+    return observation.time - begin_time_ >= step_.duration - 1e-9 && isPatientReady(observation);
   return isGoalReachedBy(at(observation, active_));
+}
+
+/** True for a wait that asks for hyperaemia or for a breath-hold, or for their end. */
+bool StepExecution::asksThePatient() const
+{
+  return step_.hyperaemia.has_value() || step_.breath_held.has_value();
+}
+
+/** True if the patient has been asked for what the wait names. */
+bool StepExecution::isAsked(const Observation& observation) const
+{
+  return (!step_.hyperaemia || observation.hyperaemia == *step_.hyperaemia) &&
+         (!step_.breath_held || observation.breath_asked == *step_.breath_held);
+}
+
+/** True if the breath is held, and the heart rests in its diastole, where the wait names them. */
+bool StepExecution::isPatientReady(const Observation& observation) const
+{
+  const bool is_held = !step_.breath_held.value_or(false) || observation.breath_held;
+  return is_held && (!step_.until_diastole || setting_.guided || heartRests(observation.heart));
+}
+
+/** True between early filling and the contraction of the atria; and if this rest is too short to react to. */
+bool StepExecution::heartRests(const HeartView& heart) const
+{
+  const double diastole = 1.0 - heart.systole;
+  const double begin = heart.systole + kRestBegin * diastole, end = heart.systole + kRestEnd * diastole;
+  const bool is_too_short = end - begin < setting_.hand.reaction * heart.rate;
+  return heart.rate == 0.0 || is_too_short || (heart.phase >= begin && heart.phase < end);
 }
 
 bool StepExecution::isGoalReachedBy(const InstrumentView& view) const

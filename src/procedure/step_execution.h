@@ -71,6 +71,10 @@ private:
   const InstrumentView& active(const Observation& observation) const;
   double holdTime() const;
   bool isReached(const Observation& observation) const;
+  bool asksThePatient() const;
+  bool isAsked(const Observation& observation) const;
+  bool isPatientReady(const Observation& observation) const;
+  bool heartRests(const HeartView& heart) const;
   bool isGoalReachedBy(const InstrumentView& view) const;
   bool hasPressure(const InstrumentView& view) const;
   bool isWrongBranch(int branch) const;

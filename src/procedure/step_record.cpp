@@ -50,8 +50,12 @@ std::string nameOf(const scene::StepScene& step)
     case StepAction::kWait:
       break;
   }
-  const std::string wait = formatted("wait %.1f s", step.duration);
-  return !step.hyperaemia ? wait : wait + (*step.hyperaemia ? " in hyperaemia" : " at rest");
+  std::string wait = formatted("wait %.1f s", step.duration);
+  if (step.hyperaemia)
+    wait += *step.hyperaemia ? " in hyperaemia" : " at rest";
+  if (step.breath_held)
+    wait += *step.breath_held ? ", breath held" : ", breathing freely";
+  return step.until_diastole ? wait + ", until diastole" : wait;
 }
 
 }  // namespace endovascular_sim::procedure

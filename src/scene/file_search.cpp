@@ -130,4 +130,9 @@ std::string findCirculation(const yaml::Node& node, const std::string& path, con
   return findNamed(node, path, scene_file, "hemodynamics", "circulation");
 }
 
+std::string findMotion(const yaml::Node& node, const std::string& path, const std::string& scene_file)
+{
+  return findNamed(node, path, scene_file, "motion", "motion");
+}
+
 }  // namespace endovascular_sim::scene

@@ -31,4 +31,8 @@ std::string findAnatomy(const yaml::Node& node, const std::string& path, const s
  *  @throws InputError listing those of the package for an unknown word */
 std::string findCirculation(const yaml::Node& node, const std::string& path, const std::string& scene_file);
 
+/** Finds the file of a patient's motion in the same way: `adult` names a file of config/motion.
+ *  @throws InputError listing those of the package for an unknown word */
+std::string findMotion(const yaml::Node& node, const std::string& path, const std::string& scene_file);
+
 }  // namespace endovascular_sim::scene

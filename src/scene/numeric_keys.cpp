@@ -41,7 +41,9 @@ const std::vector<std::string> kScenes = {
         kWire +
         "\ndrive: {source: script, speed: 0.01, travel: 0.1, limits: {insertion: [0, 0.5]}}\nfluoroscopy: {isocentre: "
         "[0, 0, 0], energy: 60, field: [0.1, 0.1], gantry: {}}\nerrors: {}\n"
-        "flow: {circulation: {outlets: {territories: [{branch: tube, share: 0.5}]}}}\n",
+        "flow: {circulation: {outlets: {territories: [{branch: tube, share: 0.5}]}}}\n"
+        "motion: {patient: {region: {fixed: [{branch: tube}], base: [0, 0, 0], apex: [0, 0, 0.1], centre: [0, 0, 0],"
+        " core: 0.1}}}\n",
     // a mesh, adaptive sampling, profiles, a robot
     "vessel: {friction: 0.1, mesh: m.stl, unit: 0.001, rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}\n"
     "entry: {nearest_centreline_end: true, position: [0, 0, 0]}\ninstrument: " +

@@ -38,6 +38,21 @@ void expandFlow(yaml::Node& flow, const std::string& file)
     *circulation = yaml::readTree(findCirculation(*circulation, "flow.circulation", file));
 }
 
+/** Replaces the word or the path of a patient's motion with the content of its file; `motion: adult` is short for
+ * `motion: {patient: adult}`. */
+void expandMotion(yaml::Node& motion, const std::string& file)
+{
+  if (motion.kind == yaml::Node::Kind::kScalar)
+  {
+    const yaml::Node word = motion;
+    motion.kind = yaml::Node::Kind::kMap;
+    motion.fields.emplace_back("patient", word);
+  }
+  yaml::Node* patient = motion.field("patient");
+  if (patient != nullptr && patient->kind == yaml::Node::Kind::kScalar)
+    *patient = yaml::readTree(findMotion(*patient, "motion.patient", file));
+}
+
 /** Treats `part: none` as a missing key. */
 void removeIfNone(yaml::Node* part)
 {
@@ -56,10 +71,12 @@ void normalise(yaml::Node& root, const std::string& file)
         expandInstrument(*instrument, "instruments." + std::to_string(k) + ".instrument", file);
   if (yaml::Node* procedure = root.field("procedure"))
     expandProcedure(*procedure, file);
-  for (const char* part : {"vessel", "sensors", "faults", "flow"})
+  for (const char* part : {"vessel", "sensors", "faults", "flow", "motion"})
     removeIfNone(root.field(part));
   if (yaml::Node* flow = root.field("flow"))
     expandFlow(*flow, file);
+  if (yaml::Node* motion = root.field("motion"))
+    expandMotion(*motion, file);
   yaml::Node* fluoroscopy = root.field("fluoroscopy");
   removeIfNone(fluoroscopy);
   if (fluoroscopy != nullptr)

@@ -152,7 +152,7 @@ void requireInside(const EntryPose& pose, const vessel::Vessel& vessel, const st
 
 CentrelineUse centrelineUse(const Scene& scene)
 {
-  const bool required = scene.sampling.kind == SamplingKind::kAdaptive || scene.flow;
+  const bool required = scene.sampling.kind == SamplingKind::kAdaptive || scene.flow || scene.motion;
   return required ? CentrelineUse::kRequired : CentrelineUse::kIfCheap;
 }
 

@@ -77,6 +77,10 @@ public:
   /** Pressure of the blood at a point of the vessel [Pa]; NaN as pressure(). @param point patient frame [m] */
   double bloodPressure(const Eigen::Vector3d& point) const;
 
+  /** Motion of the patient: phases, and the map from the resting patient to the moved one; null in a scene without the
+   *  key `motion`. */
+  const motion::MovingPatient* motion() const;
+
   /** Sensors of the scene: measured values beside the true ones of the other functions. */
   const simulation::Sensors& sensors() const { return sensors_; }
 

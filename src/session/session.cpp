@@ -59,6 +59,8 @@ struct Session::Run
   {
     if (scene->flow && world->vessel() != nullptr)
       addBlood(settings);
+    if (scene->motion && world->vessel() != nullptr)
+      simulation.setMotion(world->motion());
     if (scene->procedure && world->vessel() != nullptr)
       scripted.emplace(*scene, world->branches(), world->entry().position);
   }
@@ -208,19 +210,31 @@ const std::vector<drive::HandCommand>& Session::nextCommands()
   return run.commands;
 }
 
+/** Sets what the operator's present step asks of the patient. */
+void Session::setWantedControls()
+{
+  Run& run = this->run();
+  if (const std::optional<bool> wanted = run.scripted->wantedHyperaemia(); wanted && run.simulation.blood() != nullptr)
+  {
+    flow::FlowControls controls = run.simulation.blood()->controls();
+    controls.hyperaemia = *wanted;
+    run.simulation.blood()->setControls(controls);
+  }
+  if (const std::optional<bool> wanted = run.scripted->wantedBreathHold(); wanted && run.simulation.motion() != nullptr)
+  {
+    motion::MotionControls controls = run.simulation.motion()->controls();
+    controls.breath_held = *wanted;
+    run.simulation.motion()->setControls(controls);
+  }
+}
+
 const std::vector<drive::HandCommand>* Session::scriptedCommands()
 {
   Run& run = this->run();
   if (run.scripted && run.observed_steps != run.simulation.steps() + 1)
   {
     run.scripted->next(run.simulation);
-    if (const std::optional<bool> wanted = run.scripted->wantedHyperaemia();
-        wanted && run.simulation.blood() != nullptr)
-    {
-      flow::FlowControls controls = run.simulation.blood()->controls();
-      controls.hyperaemia = *wanted;
-      run.simulation.blood()->setControls(controls);
-    }
+    setWantedControls();
     run.observed_steps = run.simulation.steps() + 1;
   }
   return run.scripted ? &run.scripted->commands() : nullptr;
@@ -353,6 +367,29 @@ void Session::setFlowControls(const flow::FlowControls& controls)
   if (!refusal.empty())
     throw std::invalid_argument("Session: " + refusal);
   run().simulation.blood()->setControls(controls);
+}
+
+motion::MotionControls Session::motionControls() const
+{
+  if (run().simulation.motion() == nullptr)
+    throw std::logic_error("Session: the patient of this scene does not move; give the key motion");
+  return run().simulation.motion()->controls();
+}
+
+std::string Session::refusalOf(const motion::MotionControls& controls) const
+{
+  const bool has_other_rate = controls.heart_rate != motionControls().heart_rate;
+  if (scene().flow && has_other_rate)
+    return "heart_rate is that of the flow, which drives the heart; set it with the controls of the flow";
+  return motion::refusalOf(controls);
+}
+
+void Session::setMotionControls(const motion::MotionControls& controls)
+{
+  const std::string refusal = refusalOf(controls);
+  if (!refusal.empty())
+    throw std::invalid_argument("Session: " + refusal);
+  run().simulation.motion()->setControls(controls);
 }
 
 const std::vector<drive::HandCommand>& Session::executedCommands() const

@@ -130,6 +130,20 @@ public:
   void setFlowControls(const flow::FlowControls& controls);
   /** @} */
 
+  // --------------------------------------------------------------------------------------- motion of the patient
+
+  /** Heart rate, breathing rate and breath-hold. @throws std::logic_error for a scene without the key `motion` @{ */
+  motion::MotionControls motionControls() const;
+
+  /** Sets them: rates from the next beat or breath on, a breath-hold from the next end of an expiration on.
+   *  @throws std::invalid_argument for values that motion::refusalOf() refuses; and for a heart rate other than the
+   *          present one in a scene with the key `flow`, which drives the heart */
+  void setMotionControls(const motion::MotionControls& controls);
+
+  /** Reason for which setMotionControls() would refuse them; empty without one. */
+  std::string refusalOf(const motion::MotionControls& controls) const;
+  /** @} */
+
   // -------------------------------------------------------------------------------------- faults and random errors
 
   /** Commands that the handles followed in the last step, after all faults; none before the first one. */
@@ -250,6 +264,7 @@ private:
   const std::vector<drive::HandCommand>& nextCommands();
   void requireValid(const std::vector<drive::HandCommand>& commands) const;
   void advance(const std::vector<drive::HandCommand>& commands);
+  void setWantedControls();
 
   std::shared_ptr<const World> world_;
   SessionSettings settings_;

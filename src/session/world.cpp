@@ -140,6 +140,19 @@ std::shared_ptr<const simulation::BloodVessel> World::bloodVessel() const
   return blood_vessel_;
 }
 
+const simulation::PatientMotion& World::motion() const
+{
+  if (!scene_.motion || !vessel_)
+    throw std::logic_error("World: the scene has no motion");
+  std::call_once(motion_known_,
+                 [this]
+                 {
+                   motion_ = std::make_unique<const simulation::PatientMotion>(
+                       simulation::makePatientMotion(scene_, *vessel_, entry_));
+                 });
+  return *motion_;
+}
+
 const XRayVolume& World::patient() const
 {
   std::call_once(patient_loaded_,

@@ -16,6 +16,7 @@
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
 #include "simulation/blood_coupling.h"
+#include "simulation/motion_coupling.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim::session
@@ -101,6 +102,12 @@ public:
   /** Tree of the vessel for couplings with the flow; as flow(). */
   std::shared_ptr<const simulation::BloodVessel> bloodVessel() const;
 
+  /** Motion of the patient at rest, prepared by the first call.
+   *  @throws std::logic_error for a scene without the key `motion`
+   *  @throws InputError for a vessel in which the heart is not found, a motion that folds space, or an introducer that
+   *          would move */
+  const simulation::PatientMotion& motion() const;
+
   /** Patient of the X-ray image, loaded by the first call.
    *  @throws InputError when the patient cannot be loaded; a further call tries again */
   const XRayVolume& patient() const;
@@ -119,10 +126,12 @@ private:
   std::uint64_t mesh_hash_ = 0;
   scene::EntryPose entry_;
   mutable std::shared_ptr<const contact::WallModel> wall_;
-  mutable std::once_flag wall_prepared_, branches_known_, patient_loaded_, free_length_known_, flow_known_, tree_known_;
+  mutable std::once_flag wall_prepared_, branches_known_, patient_loaded_, free_length_known_, flow_known_, tree_known_,
+      motion_known_;
   mutable std::shared_ptr<const procedure::BranchLocator> branches_;
   mutable std::unique_ptr<const flow::FlowEngine> flow_;
   mutable std::shared_ptr<const simulation::BloodVessel> blood_vessel_;
+  mutable std::unique_ptr<const simulation::PatientMotion> motion_;
   mutable XRayVolume patient_;
   mutable double free_length_ = 0.0;  ///< from the entry to the wall along its direction [m]
 };

@@ -18,8 +18,9 @@ struct Range
 {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
-  bool open = false;      ///< true if min is excluded
-  bool infinite = false;  ///< true if infinity is valid
+  bool open = false;       ///< true if min is excluded
+  bool infinite = false;   ///< true if infinity is valid
+  const char* words = "";  ///< the interval in the unit of daily use, for messages, e.g. "20 to 300 per minute"
 
   bool contains(double value) const;
   /** Description for messages, e.g. "positive" or "between 0 and 1". */

@@ -101,6 +101,7 @@ double toNumber(const Node& node, const std::string& path, const Quantity& quant
     const std::string question = unitQuestion(quantity, value);
     rejectNode(node, path,
                "is " + text + "; must be " + range.description() + inUnit(quantity) +
+                   (*range.words == '\0' ? "" : std::string(", ") + range.words) +
                    (question.empty() ? "" : "; " + question));
   }
   return value;

@@ -13,6 +13,12 @@ void Cycle::set(double phase, double rate)
   standing_ = false;
 }
 
+void Cycle::hold(bool held)
+{
+  held_ = held;
+  standing_ = standing_ || (held && phase_ == 0.0);
+}
+
 void Cycle::advance(double time_step)
 {
   if (standing_ && held_)

@@ -22,8 +22,8 @@ public:
    *  @param phase in [0, 1)
    *  @param rate [Hz], positive */
   void set(double phase, double rate);
-  /** Holds at the end of the present cycle, or goes on from there. */
-  void hold(bool held) { held_ = held; }
+  /** Holds at the end of the present cycle, or goes on from there. A cycle that has not begun is held at once. */
+  void hold(bool held);
 
   void advance(double time_step);  ///< @param time_step [s], shorter than a cycle
 

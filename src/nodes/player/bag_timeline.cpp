@@ -15,6 +15,8 @@
 #include "endovascular_sim/FlowNetwork.h"
 #include "endovascular_sim/HeartPhase.h"
 #include "endovascular_sim/HemodynamicControls.h"
+#include "endovascular_sim/MotionControls.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SensorReading.h"
@@ -70,6 +72,8 @@ const PresentType* presentTypeOf(const BagMessage& message)
                                                  presentType<BloodFlow>(),
                                                  presentType<HeartPhase>(),
                                                  presentType<HemodynamicControls>(),
+                                                 presentType<MotionState>(),
+                                                 presentType<MotionControls>(),
                                                  presentType<DriveApplied>()};
   for (const PresentType& type : types)
     if (type.type == message.type)

@@ -95,6 +95,8 @@ bool GraphSimulation::connect()
   settings.varied = false;
   session_.emplace(world, std::move(settings));
   connectFlow();
+  if (scene_.motion)
+    motion_.emplace(node_, *session_, MotionPart{scene_.flow.has_value()});
   if (scene_.procedure)
     procedure_.emplace(node_, scene_);
   if (!contacts_)
@@ -116,7 +118,7 @@ void GraphSimulation::connectFlow()
   const flow::VesselFlowTree& network = simulation().blood()->places().tree();
   flow_->setSizes({static_cast<std::size_t>(network.tree.nodes), network.tree.cells.size(),
                    simulation::pressureLines(scene_).size(), session_->world().vessel()->lesions.size()});
-  hemodynamics_.emplace(node_, session_->flowControls());
+  hemodynamics_.emplace(node_, *session_);
 }
 
 bool GraphSimulation::needsFlow() const
@@ -162,6 +164,8 @@ const std::vector<drive::HandCommand>& GraphSimulation::nextCommands()
   hardware_.applyChanges(*session_);
   if (hemodynamics_)
     hemodynamics_->applyChanges(*session_, now());
+  if (motion_)
+    motion_->applyChanges(*session_, now());
   return drives_.next(simulation(), scripted, session_->faults());
 }
 
@@ -197,6 +201,8 @@ void GraphSimulation::publishControls(std::uint32_t run)
 {
   if (hemodynamics_)
     hemodynamics_->beginRun(*session_, run, now());
+  if (motion_)
+    motion_->beginRun(*session_, run, now());
 }
 
 void GraphSimulation::publishEnd(const std::string& reason)

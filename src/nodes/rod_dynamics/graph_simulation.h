@@ -15,6 +15,7 @@
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
 #include "nodes/rod_dynamics/instruments/graph_hardware.h"
 #include "nodes/rod_dynamics/instruments/graph_hemodynamics.h"
+#include "nodes/rod_dynamics/instruments/graph_motion.h"
 #include "nodes/rod_dynamics/instruments/hand_force_renderer.h"
 #include "nodes/rod_dynamics/instruments/instrument_publisher.h"
 #include "nodes/rod_dynamics/procedure_publisher.h"
@@ -56,7 +57,7 @@ public:
   /** Publishes the beginning of a run: the time, and an empty map of the wall forces. */
   void publishBeginning();
 
-  /** Publishes the controls of the circulation at the beginning of a run.
+  /** Publishes the controls of circulation and motion at the beginning of a run.
    *  @param run its number */
   void publishControls(std::uint32_t run);
 
@@ -136,6 +137,7 @@ private:
   DriveCommands drives_;
   GraphHardware hardware_;
   std::optional<GraphHemodynamics> hemodynamics_;  ///< none without flow of blood, and before connect()
+  std::optional<GraphMotion> motion_;              ///< none where the patient rests, and before connect()
   InstrumentPublisher instruments_;
   HandForceRenderer renderer_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "instrument/instrument.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/rod_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/rod_dynamics/instruments/instrument_observation.h"
@@ -31,7 +32,10 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pac
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   group_ = node.advertise<SessionSteps>(names::kSessionSteps,
                                         std::max(1U, kStepQueue / static_cast<std::uint32_t>(visual_period_)));
-  visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, pace == Pace::kRealTime ? 2 : kVisualQueue);
+  const std::uint32_t visual_queue = pace == Pace::kRealTime ? 2 : kVisualQueue;
+  visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, visual_queue);
+  if (scene.motion)
+    motion_ = node.advertise<MotionState>(names::kMotionState, visual_queue);
   if (simulation::hasBalloon(scene))
     treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, kTreatmentQueue);
   applied_message_.insertion.resize(scene.instruments.size());
@@ -56,6 +60,8 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
   publishApplied(simulation, hands);
   if (is_visual || is_last)
     publishGroup();
+  if (is_visual && simulation.motion() != nullptr)
+    publishMotion(simulation);
   if (is_visual)
     publishVisual(simulation);
   if (treatment_ && (is_visual || is_event))
@@ -100,6 +106,17 @@ void RodPublisher::reset()
 {
   publishGroup();
   treatment_message_ = TreatmentVisual();
+}
+
+/** Publishes the motion of the patient, before the state of the instruments in it. */
+void RodPublisher::publishMotion(const simulation::Simulation& simulation)
+{
+  motion_message_.header.frame_id = names::kPatientFrame;
+  motion_message_.header.stamp = now_;
+  motion_message_.step = simulation.steps() - 1;
+  motion_message_.time = simulation.time();
+  toMessage(simulation.motion()->patient(), motion_message_);
+  motion_.publish(motion_message_);
 }
 
 void RodPublisher::publishVisual(const simulation::Simulation& simulation)

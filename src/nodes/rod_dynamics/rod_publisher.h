@@ -9,6 +9,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "endovascular_sim/DriveApplied.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionSteps.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -42,6 +43,7 @@ public:
 
 private:
   void publishApplied(const simulation::Simulation& simulation, const std::vector<RenderedHand>& hands);
+  void publishMotion(const simulation::Simulation& simulation);
   void publishVisual(const simulation::Simulation& simulation);
   void publishTreatment(const simulation::Simulation& simulation);
   void publishTips(const simulation::Simulation& simulation);
@@ -50,12 +52,13 @@ private:
   std::uint64_t visual_period_;      ///< interval of the data for display, number of steps of a group [steps]
   std::uint64_t last_step_;          ///< last step of the scene's duration
   std::vector<std::string> frames_;  ///< of the tip of each instrument; empty unless its pressure is published
-  ros::Publisher applied_, group_, visual_, treatment_;
+  ros::Publisher applied_, group_, visual_, treatment_, motion_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Time now_;  ///< time of the last step
   DriveApplied applied_message_;
   SessionSteps group_message_;
   RodStateVisual visual_message_;
+  MotionState motion_message_;
   TreatmentVisual treatment_message_;
 };
 

@@ -17,6 +17,8 @@
 #include "endovascular_sim/FlowNetwork.h"
 #include "endovascular_sim/HeartPhase.h"
 #include "endovascular_sim/HemodynamicControls.h"
+#include "endovascular_sim/MotionControls.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionEnd.h"
@@ -63,6 +65,8 @@ bool isOfThisVersion(const BagMessage& message)
       {names::kFlowNetwork, &BagMessage::is<FlowNetwork>},
       {names::kBloodFlow, &BagMessage::is<BloodFlow>},
       {names::kHeartPhase, &BagMessage::is<HeartPhase>},
+      {names::kMotionControls, &BagMessage::is<MotionControls>},
+      {names::kMotionState, &BagMessage::is<MotionState>},
   };
   for (const auto& [topic, check] : checks)
     if (isTopic(message.topic, topic))

@@ -15,6 +15,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "nodes/conversions/flow_conversions.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/rod_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
@@ -39,6 +40,8 @@ OfflineBag::OfflineBag(const std::string& file, const session::Session& session,
     addVessel(session.world());
   if (session.simulation().blood() != nullptr)
     addNetwork(session);
+  if (session.simulation().motion() != nullptr)
+    addControls(session.motionControls());
 }
 
 /** Writes a message with the present simulated time. */
@@ -90,6 +93,18 @@ void OfflineBag::addControls(const flow::FlowControls& controls)
   write(names::kHemodynamicControls, std::move(message));
 }
 
+/** Writes the controls of the motion if they have changed. */
+void OfflineBag::addControls(const motion::MotionControls& controls)
+{
+  if (motion_controls_ == controls)
+    return;
+  motion_controls_ = controls;
+  MotionControls message;
+  toMessage(controls, message);
+  message.step = steps_;
+  write(names::kMotionControls, std::move(message));
+}
+
 /** Writes the step of the flow that acts since the last step of the simulation, if it is another one than before. */
 void OfflineBag::addBlood(const simulation::BloodCoupling& blood)
 {
@@ -128,6 +143,8 @@ void OfflineBag::addStep(const session::Session& session)
 {
   if (session.simulation().blood() != nullptr)
     addControls(session.flowControls());
+  if (session.simulation().motion() != nullptr)
+    addControls(session.motionControls());
   const simulation::Simulation& simulation = session.simulation();
   steps_ = simulation.steps();
   now_ = ros::Time(simulation.time());
@@ -165,8 +182,20 @@ void OfflineBag::addProcedure(const procedure::Operator& scripted, std::uint64_t
     write(names::kProcedureStep, std::move(message));
 }
 
+void OfflineBag::addMotion(const simulation::Simulation& simulation)
+{
+  MotionState motion;
+  toMessage(simulation.motion()->patient(), motion);
+  motion.step = simulation.steps() - 1;
+  motion.time = simulation.time();
+  motion.header.frame_id = names::kPatientFrame;
+  write(names::kMotionState, std::move(motion));
+}
+
 void OfflineBag::addState(const simulation::Simulation& simulation)
 {
+  if (simulation.motion() != nullptr)
+    addMotion(simulation);
   RodStateVisual state;
   toMessage(simulation, state);
   state.header.frame_id = names::kPatientFrame;

@@ -16,8 +16,8 @@ namespace endovascular_sim::nodes
 {
 
 /** Bag of an offline session: scene, vessel, the commands of each step, states of instruments and balloons, and the
- *  procedure and the flow of blood, as the session node records them. It can be played and replayed. Times are
- * simulated ones. */
+ *  procedure, the flow of blood and the motion of the patient, as the session node records them. It can be played and
+ * replayed. Times are simulated ones. */
 class OfflineBag
 {
 public:
@@ -39,6 +39,8 @@ private:
   void addState(const simulation::Simulation& simulation);
   void addNetwork(const session::Session& session);
   void addControls(const flow::FlowControls& controls);
+  void addControls(const motion::MotionControls& controls);
+  void addMotion(const simulation::Simulation& simulation);
   void addBlood(const simulation::BloodCoupling& blood);
   template <typename Message>
   void write(const char* topic, Message message);
@@ -50,10 +52,12 @@ private:
   ProcedureMessages procedure_;
   std::size_t events_ = 0;  ///< of balloons and stents that are written
   bool has_balloon_;
-  std::optional<flow::FlowControls> controls_;  ///< last written ones
-  std::uint64_t flow_steps_ = 0;                ///< number of steps of the flow that had begun at the last step
-  double flow_time_step_ = 0.0;                 ///< [s]
-  std::vector<std::string> lines_;              ///< frames of the pressure lines
+  // Last written ones:
+  std::optional<flow::FlowControls> controls_;
+  std::optional<motion::MotionControls> motion_controls_;
+  std::uint64_t flow_steps_ = 0;    ///< number of steps of the flow that had begun at the last step
+  double flow_time_step_ = 0.0;     ///< [s]
+  std::vector<std::string> lines_;  ///< frames of the pressure lines
 };
 
 }  // namespace endovascular_sim::nodes

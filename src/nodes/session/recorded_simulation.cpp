@@ -68,7 +68,7 @@ struct RecordedSimulation::Contacts
 };
 
 RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::string& file, bool results)
-  : file_(file), controls_(recording.controls)
+  : file_(file), controls_(recording.controls), motion_controls_(recording.motion_controls)
 {
   const std::shared_ptr<const session::World> world = recordedWorld(recording, file);
   session::SessionSettings settings;
@@ -99,6 +99,16 @@ void RecordedSimulation::prepare(const DriveApplied& applied)
   const auto controls = controls_.find(simulation().steps());
   if (controls != controls_.end() && simulation().blood() != nullptr)
     session_->setFlowControls(controls->second);
+  const auto motion = motion_controls_.find(simulation().steps());
+  if (motion != motion_controls_.end() && simulation().motion() != nullptr)
+    setMotionControls(motion->second);
+}
+
+void RecordedSimulation::setMotionControls(motion::MotionControls controls)
+{
+  if (simulation().blood() != nullptr)  // the flow drives the heart
+    controls.heart_rate = session_->motionControls().heart_rate;
+  session_->setMotionControls(controls);
 }
 
 void RecordedSimulation::step(const DriveApplied& applied)

@@ -39,11 +39,13 @@ private:
   struct Contacts;
 
   void prepare(const DriveApplied& applied);
+  void setMotionControls(motion::MotionControls controls);
 
   std::string file_;
   std::shared_ptr<Contacts> contacts_;  ///< null without a vessel
   std::optional<session::Session> session_;
-  std::map<std::uint64_t, flow::FlowControls> controls_;  ///< of the flow of blood, by their first step
+  std::map<std::uint64_t, flow::FlowControls> controls_;             ///< of the flow of blood, by their first step
+  std::map<std::uint64_t, motion::MotionControls> motion_controls_;  ///< in the same way
   std::vector<drive::HandCommand> commands_;
 };
 

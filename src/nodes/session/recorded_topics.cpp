@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/HeartPhase.h"
 #include "endovascular_sim/HemodynamicControls.h"
+#include "endovascular_sim/MotionControls.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/SensorReading.h"
 #include "endovascular_sim/SessionEnd.h"
@@ -36,6 +38,7 @@
 #include "fluoroscopy/image/png_writer.h"
 #include "intervention/wall_displacement.h"
 #include "nodes/conversions/message_checks.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
@@ -159,6 +162,8 @@ RecordedTopics::RecordedTopics(const ros::NodeHandle& node, const scene::Scene& 
     subscribeToFluoroscopy();
   if (scene_.flow)
     subscribeToBlood();
+  if (scene_.motion)
+    subscribeToMotion();
   subscribeToGraph();
 }
 
@@ -324,6 +329,12 @@ void RecordedTopics::subscribeToBlood()
   recordThrottled<BloodFlow>(names::kBloodFlow, kQueue, &Recording::flow);
 }
 
+void RecordedTopics::subscribeToMotion()
+{
+  recordLatched<MotionControls>(names::kMotionControls, kQueue);
+  listen<MotionState>(names::kMotionState, kQueue, [this](const auto& event) { onMotion(event); });
+}
+
 void RecordedTopics::subscribeToGraph()
 {
   if (scene_.robot)
@@ -411,8 +422,37 @@ void RecordedTopics::recordNewestPose(Recording& recording) const
   if (recording.error.empty())
     recording.error = recording.results.trajectoryError();
   const auto& pose = *recording.newest_pose;
+  recordMotion(recording, pose.getConstMessage()->step);
   recording.bag.write(node_.resolveName(names::kRodStateVisual), withMessage(pose, rounded(*pose.getConstMessage())));
   recording.newest_pose.reset();
+}
+
+void RecordedTopics::onMotion(const ros::MessageEvent<MotionState const>& event)
+{
+  if (recording_ == nullptr)
+    return;
+  const MotionState& motion = *event.getConstMessage();
+  if (sequence_.isBefore(motion))
+    return;
+  sequence_.requireKnown(motion, names::kMotionState);
+  fromMessage(motion);  // throws for an invalid one
+  std::map<std::uint64_t, ros::MessageEvent<MotionState const>>& waiting = recording_->motions;
+  waiting[motion.step] = event;
+  if (waiting.size() > kQueue)
+    waiting.erase(waiting.begin());
+  if (recording_->pose_step == motion.step)  // it has arrived after the pose of its step
+    recordMotion(*recording_, motion.step);
+}
+
+/** Records the motion of a recorded pose, and forgets that of the poses before, which are left out. */
+void RecordedTopics::recordMotion(Recording& recording, std::uint64_t step) const
+{
+  recording.pose_step = step;
+  const auto motion = recording.motions.find(step);
+  if (motion == recording.motions.end())
+    return;
+  recording.bag.write(node_.resolveName(names::kMotionState), motion->second);
+  recording.motions.erase(recording.motions.begin(), std::next(motion));
 }
 
 void RecordedTopics::onContacts(const ros::MessageEvent<ContactForces const>& event)

@@ -99,6 +99,7 @@ private:
   void subscribeToVessel();
   void subscribeToFluoroscopy();
   void subscribeToBlood();
+  void subscribeToMotion();
   void subscribeToGraph();
   void publishInfo();
   SessionInfo recordedInfo() const;
@@ -127,6 +128,8 @@ private:
    *         RodStateVisual for measured_js */
   template <typename Message>
   void recordJoints(const char* topic, const Message& message, ros::Time time);
+  void onMotion(const ros::MessageEvent<MotionState const>& event);
+  void recordMotion(Recording& recording, std::uint64_t step) const;
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& received);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <ros/message_event.h>
 
 #include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "nodes/session/bag_writer.h"
 #include "nodes/session/session_results.h"
@@ -43,6 +45,9 @@ struct Recording
   std::uint64_t frames = 0;  ///< X-ray frames that have arrived
   /** Newest state of the wires that is not recorded yet; empty without one. */
   std::optional<ros::MessageEvent<RodStateVisual const>> newest_pose;
+  /** Motion of the patient at the poses since the last recorded one, by their steps. */
+  std::map<std::uint64_t, ros::MessageEvent<MotionState const>> motions;
+  std::optional<std::uint64_t> pose_step;  ///< step of the last recorded pose
   /** Newest map of the wall forces that is not recorded yet; empty without one. */
   std::optional<ros::MessageEvent<ContactForceMap const>> newest_map;
   double last_map = 0.0, next_map = 0.0;  ///< times of the last recorded map and of the next one [s]

@@ -8,9 +8,11 @@
 #include "common/hash.h"
 #include "common/version.h"
 #include "endovascular_sim/HemodynamicControls.h"
+#include "endovascular_sim/MotionControls.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "nodes/conversions/flow_conversions.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/runtime/ros_names.h"
 
 namespace endovascular_sim::nodes
@@ -72,8 +74,10 @@ boost::shared_ptr<Message> readMessage(const std::string& file, const char* topi
 struct BagParts
 {
   std::optional<SessionInfo> info;
-  std::uint32_t run = 0;                                         ///< number of the run
-  std::vector<boost::shared_ptr<HemodynamicControls>> controls;  ///< of this run and the one before
+  std::uint32_t run = 0;  ///< number of the run
+  // Of this run and the one before:
+  std::vector<boost::shared_ptr<HemodynamicControls>> controls;
+  std::vector<boost::shared_ptr<MotionControls>> motion_controls;
 };
 
 /** Adds a message to the content of a session. */
@@ -102,6 +106,8 @@ void addMessage(const std::string& file, const BagMessage& message, BagParts& pa
   }
   else if (isTopic(message.topic, names::kHemodynamicControls))
     parts.controls.push_back(readMessage<HemodynamicControls>(file, names::kHemodynamicControls, message));
+  else if (isTopic(message.topic, names::kMotionControls))
+    parts.motion_controls.push_back(readMessage<MotionControls>(file, names::kMotionControls, message));
   else if (isTopic(message.topic, names::kSessionEnd))
     session.recorded_steps = readMessage<SessionEnd>(file, names::kSessionEnd, message)->steps;
 }
@@ -164,6 +170,9 @@ SessionBag readSessionBag(const std::string& file)
   for (const auto& controls : parts.controls)
     if (controls->run == parts.run)
       session.controls[controls->step] = fromMessage(*controls);
+  for (const auto& controls : parts.motion_controls)
+    if (controls->run == parts.run)
+      session.motion_controls[controls->step] = fromMessage(*controls);
   requireUndamaged(file, session);
   if (session.steps.empty())
     throw InputError(file, names::kDriveApplied, "holds no step; record a session that steps" + damageOf(session));

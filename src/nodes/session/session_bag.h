@@ -10,6 +10,7 @@
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
 #include "flow/coupling/flow_source.h"
+#include "motion/motion_controls.h"
 #include "nodes/session/bag_records.h"
 
 namespace endovascular_sim::nodes
@@ -24,6 +25,8 @@ struct SessionBag
   std::map<std::uint64_t, DriveAppliedConstPtr> steps;
   /** Controls of the flow of blood in this run, by the first step that has them as input. */
   std::map<std::uint64_t, flow::FlowControls> controls;
+  /** Controls of the patient's motion in this run, in the same way. */
+  std::map<std::uint64_t, motion::MotionControls> motion_controls;
   std::uint64_t first_step = 0;  ///< number of steps before the first one of the recording
   std::string state;             ///< saved state from which the recording continues; empty at the scene's beginning
   std::optional<std::uint64_t> recorded_steps;  ///< number of steps of the session; empty: the bag has no end

@@ -9,10 +9,10 @@ const std::vector<SchemeTraits>& schemes()
 {
   // clang-format off
   static const std::vector<SchemeTraits> table = {
-      //        balloons stack  moves  holds  torque adaptive saves  observes streams
-      {"kkt",   true,    true,  true,  true,  true,  true,    true,  true,    true},
-      {"paper", false,   false, false, false, true,  true,    false, false,   false},
-      {"mixed", false,   false, false, false, false, false,   false, false,   false},
+      //        balloons stack  moves  holds  torque adaptive saves  observes streams moving_walls
+      {"kkt",   true,    true,  true,  true,  true,  true,    true,  true,    true,   true},
+      {"paper", false,   false, false, false, true,  true,    false, false,   false,  false},
+      {"mixed", false,   false, false, false, false, false,   false, false,   false,  false},
   };
   // clang-format on
   return table;

@@ -14,6 +14,7 @@
 #include "flow/body/circulation.h"
 #include "fluoroscopy/gantry/gantry_limits.h"
 #include "instrument/instrument.h"
+#include "motion/body/motion_settings.h"
 #include "robot/command_fault.h"
 #include "robot/joint_link.h"
 #include "robot/robot_model.h"
@@ -261,6 +262,15 @@ struct FlowScene
   FlowDrag drag = FlowDrag::kSoft;
 };
 
+/** Motion of the patient: heartbeat and breathing. */
+struct MotionScene
+{
+  motion::MotionSettings patient;
+  double heart_rate = 0.0;      ///< at the beginning [Hz]; with flow, that of the flow
+  double breathing_rate = 0.0;  ///< at the beginning [Hz]
+  bool breath_held = false;     ///< at the beginning
+};
+
 /** Body around the vessel in the X-ray image: procedural, or a CT. */
 struct PatientScene
 {
@@ -347,7 +357,8 @@ struct Scene
   std::vector<RollerScene> rollers;  ///< in place of a vessel
   SamplingScene sampling;
   SolverScene solver;
-  std::optional<FlowScene> flow;  ///< if empty, blood does not flow
+  std::optional<FlowScene> flow;      ///< if empty, blood does not flow
+  std::optional<MotionScene> motion;  ///< if empty, the patient does not move
   std::optional<FluoroscopyScene> fluoroscopy;
   bool haptic_device = false;  ///< true: start the haptic device node
   std::optional<RobotScene> robot;

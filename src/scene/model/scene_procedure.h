@@ -77,6 +77,10 @@ struct StepScene
   /** Hyperaemia required during a wait; empty: any. The scripted operator sets it. For a person the wait counts while
    * it is set. */
   std::optional<bool> hyperaemia;
+  /** Breath-hold of a wait, true: held; empty: any. The scripted operator asks for it when the wait begins, and waits
+   * until the breath is held. For a person the wait counts while it is set. */
+  std::optional<bool> breath_held;
+  bool until_diastole = false;  ///< true: a wait ends in a diastole
   double time_limit = 30.0;  ///< duration after which the step fails [s]
   bool any_branch = false;   ///< true: no branch counts as wrong
   RetryScene retry;

@@ -15,6 +15,8 @@ namespace
 
 // Keys of the actions, in the order of StepAction.
 const std::vector<std::string> kActions = {"advance", "withdraw", "rotate", "inflate", "exchange", "wait"};
+const std::vector<std::string> kBreaths = {"hold", "free"};
+const std::vector<std::string> kHeartPhases = {"diastole"};
 
 void visitGoal(yaml::Fields& fields, GoalScene& goal)
 {
@@ -90,6 +92,29 @@ void visitAction(yaml::Fields& fields, StepScene& step)
     fields.text(key, step.instrument, Need::kRequired);
 }
 
+/** Visits what a wait asks of the patient. */
+void visitWait(yaml::Fields& fields, StepScene& step)
+{
+  if (fields.reading() ? fields.has("hyperaemia") : step.hyperaemia.has_value())
+  {
+    if (!step.hyperaemia)
+      step.hyperaemia.emplace();
+    fields.boolean("hyperaemia", *step.hyperaemia);
+  }
+  if (fields.reading() ? fields.has("breath") : step.breath_held.has_value())
+  {
+    int word = step.breath_held.value_or(true) ? 0 : 1;
+    fields.choice("breath", word, kBreaths);
+    step.breath_held = word == 0;
+  }
+  if (fields.reading() ? fields.has("until") : step.until_diastole)
+  {
+    int word = 0;
+    fields.choice("until", word, kHeartPhases);
+    step.until_diastole = true;
+  }
+}
+
 void visitStep(yaml::Fields& fields, StepScene& step)
 {
   if (fields.reading() || !step.phase.empty())
@@ -103,12 +128,7 @@ void visitStep(yaml::Fields& fields, StepScene& step)
   visitAction(fields, step);
   if (step.action == StepAction::kWait)
   {
-    if (fields.reading() ? fields.has("hyperaemia") : step.hyperaemia.has_value())
-    {
-      if (!step.hyperaemia)
-        step.hyperaemia.emplace();
-      fields.boolean("hyperaemia", *step.hyperaemia);
-    }
+    visitWait(fields, step);
     return;
   }
   if (step.action == StepAction::kInflate)
@@ -254,6 +274,9 @@ void checkProcedure(const yaml::Fields& fields, const Scene& scene)
       fields.reject(path + "for", "'" + step.replacement + remedy);
     if (step.hyperaemia && !scene.flow)
       fields.reject(path + "hyperaemia", "needs blood that flows; give the scene the key flow, e.g. flow: adult");
+    if ((step.breath_held || step.until_diastole) && !scene.motion)
+      fields.reject(path + (step.breath_held ? "breath" : "until"),
+                    "needs a patient who moves; give the scene the key motion, e.g. motion: adult");
     checkSupport(fields, scene, k);
     if (!step.view.empty())
       checkView(fields, path + "view", step.view, scene);

@@ -208,6 +208,7 @@ void checkScene(const yaml::Fields& fields, const Scene& scene)
   checkEnds(fields, scene);
   checkRollers(fields, scene);
   checkFlow(fields, scene);
+  checkMotion(fields, scene);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     if (scene.instruments[k].drive.source == DriveSource::kDevice && !scene.haptic_device)
       fields.reject(drivePath(scene, k) + "drive.source",
@@ -398,6 +399,12 @@ void visitScene(yaml::Fields& fields, Scene& scene)
     if (!scene.flow)
       scene.flow.emplace();
     fields.map("flow", [&scene](yaml::Fields& flow) { visitFlow(flow, *scene.flow); });
+  }
+  if (fields.reading() ? fields.has("motion") : scene.motion.has_value())
+  {
+    if (!scene.motion)
+      scene.motion.emplace();
+    fields.map("motion", [&scene](yaml::Fields& motion) { visitMotion(motion, *scene.motion, scene.flow); });
   }
   fields.boolean("haptic_device", scene.haptic_device);
   if (fields.reading() ? fields.has("robot") : scene.robot.has_value())

@@ -57,6 +57,10 @@ void visitProfile(yaml::Fields& fields, DriveProfile& profile, const Quantity& q
 void visitFlow(yaml::Fields& fields, FlowScene& flow);
 /** Rejects flow without a tree of vessels, or at a rate that the steps do not divide. */
 void checkFlow(const yaml::Fields& fields, const Scene& scene);
+/** Schema of `motion`. @param flow drives the heart, if there is one */
+void visitMotion(yaml::Fields& fields, MotionScene& motion, const std::optional<FlowScene>& flow);
+/** Rejects motion without a vessel that instruments enter, and with a scheme whose walls rest. */
+void checkMotion(const yaml::Fields& fields, const Scene& scene);
 void visitEnds(yaml::Fields& fields, Scene& scene);
 void visitLoads(yaml::Fields& fields, LoadScene& loads, double wire_length);
 /** Schema of the list `rollers`. */

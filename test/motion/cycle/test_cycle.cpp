@@ -53,6 +53,18 @@ TEST(Cycle, IsHeldAtItsEndUntilItIsLetGo)
   EXPECT_EQ(cycle.speed(), 0.25);
 }
 
+TEST(Cycle, IsHeldAtOnceBeforeItHasBegun)
+{
+  Cycle cycle(0.25);
+  cycle.hold(true);
+  EXPECT_EQ(cycle.speed(), 0.0);
+  cycle.advance(1.0);
+  EXPECT_EQ(cycle.phase(), 0.0);
+  cycle.hold(false);
+  cycle.advance(1.0);
+  EXPECT_DOUBLE_EQ(cycle.phase(), 0.25);
+}
+
 TEST(Cycle, GoesOnFromASavedStateWithTheSameBits)
 {
   Cycle cycle(1.1);
