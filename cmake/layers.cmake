@@ -22,7 +22,7 @@ set(LAYERS
   "robot         : drive                                      :"
   "haptics       : drive                                      :"
   "sensor        : common                                     :"
-  "scene         : fluoroscopy robot sensor flow motion       :"
+  "scene         : fluoroscopy robot sensor flow              :"
   "simulation    : intervention scene                         :"
   "procedure     : simulation                                 :"
   "results       : procedure                                  :"
