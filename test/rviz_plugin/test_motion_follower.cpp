@@ -102,7 +102,7 @@ TEST(MotionFollower, ThePatientRestsWhenTheMotionHasEnded)
   follower.add(motionMessage(1, 1.0));
   follower.add(wireOf(1));
   follower.advance(kFrame);
-  for (std::uint64_t step = 2; step <= MotionFollower::kMostWithout + 2; ++step)
+  for (std::uint64_t step = 2; step <= MotionFollower::kMostWithout + 1; ++step)
   {
     EXPECT_FALSE(follower.map().resting());
     follower.add(wireOf(step));

@@ -99,10 +99,13 @@ void CameraGuide::beginAt(const CameraPose& pose)
   if (!pose.eye.allFinite() || !pose.focus.allFinite() || !pose.up.allFinite())
     return;
   const bool moves = mode_ == ViewMode::kAlongVessel;
-  const Eigen::Vector3d focus = moves ? map_.pullBack(pose.focus) : pose.focus;
-  const Eigen::Vector3d eye = moves ? map_.pullBack(pose.eye) : pose.eye;
-  focus_.jumpTo(focus);
-  offset_.jumpTo(eye - focus);
+  beginInRest(moves ? CameraPose{map_.pullBack(pose.eye), map_.pullBack(pose.focus), pose.up} : pose);
+}
+
+void CameraGuide::beginInRest(const CameraPose& pose)
+{
+  focus_.jumpTo(pose.focus);
+  offset_.jumpTo(pose.eye - pose.focus);
   up_.jumpTo(pose.up);
   has_begun_ = true;
 }
@@ -153,19 +156,20 @@ CameraGuide::Target CameraGuide::targetOf(const ViewSetting& setting, double asp
   return alongTheVessel(is_distance_set ? setting.distance : kDistanceBehind);
 }
 
-void CameraGuide::moveWithPatient(CameraPose& pose) const
+CameraPose CameraGuide::movedWithPatient(CameraPose pose) const
 {
   pose.eye = map_.position(pose.eye);
   pose.focus = map_.position(pose.focus);
   if ((pose.focus - pose.eye).norm() > 1e-9)
     pose.up = normalPart(pose.up, (pose.focus - pose.eye).normalized());
+  return pose;
 }
 
 CameraPose CameraGuide::advance(const ViewSetting& setting, double seconds, double aspect, double field_of_view)
 {
   const Target target = targetOf(setting, aspect, field_of_view);
   if (!has_begun_)
-    beginAt({target.focus + target.offset, target.focus, Eigen::Vector3d::UnitZ()});
+    beginInRest({target.focus + target.offset, target.focus, Eigen::Vector3d::UnitZ()});
   const double time = std::isfinite(seconds) ? std::clamp(seconds, 0.0, 1.0) : 0.0;
   CameraPose pose;
   pose.focus = focus_.follow(target.focus, kRate, time);
@@ -177,9 +181,7 @@ CameraPose CameraGuide::advance(const ViewSetting& setting, double seconds, doub
   else
     up_.follow(Eigen::Vector3d::UnitZ(), kRate, time);
   pose.up = normalPart(up_.point(), forward);
-  if (mode_ == ViewMode::kAlongVessel && !map_.resting())
-    moveWithPatient(pose);
-  return pose;
+  return mode_ == ViewMode::kAlongVessel && !map_.resting() ? movedWithPatient(pose) : pose;
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -90,7 +90,10 @@ private:
   Target targetOf(const ViewSetting& setting, double aspect, double field_of_view) const;
   double fittingDistance(const ViewSetting& setting, double aspect, double field_of_view) const;
   Target alongTheVessel(double distance) const;
-  void moveWithPatient(CameraPose& pose) const;
+  /** @param pose in the resting patient */
+  void beginInRest(const CameraPose& pose);
+  /** @return pose in the moved patient */
+  CameraPose movedWithPatient(CameraPose pose) const;
   Eigen::Vector3d centre() const { return 0.5 * (low_ + high_); }
 
   ViewMode mode_;
