@@ -72,9 +72,9 @@ void Fluoroscope::setPose(const CArmPose& pose)
   if (pose == before)
     return;
   const XRayGeometry geometry(pose);
-  requireVesselInFrontOfSource(geometry, vessel_);
+  requireVesselInFrontOfSource(geometry, vessel_.mesh());
   geometry_ = geometry;
-  vessel_length_.clear();
+  vessel_is_current_ = false;
   background_valid_ = false;
   display_.reset();
   if (pose.pixels != before.pixels || pose.detector_width != before.detector_width ||
@@ -91,14 +91,25 @@ void Fluoroscope::setPose(const CArmPose& pose)
 void Fluoroscope::setVessel(geometry::TriangleMesh mesh)
 {
   requireVesselInFrontOfSource(geometry_, mesh);
-  vessel_ = std::move(mesh);
-  vessel_length_.clear();
+  vessel_.setMesh(std::move(mesh));
+  vessel_is_current_ = false;
   background_valid_ = false;
 }
 
 void Fluoroscope::setPatient(std::unique_ptr<Patient> patient)
 {
   patient_ = std::move(patient);
+  patient_->setMotion(motion_);
+  background_valid_ = false;
+}
+
+void Fluoroscope::setMotion(const BodyMotion& motion)
+{
+  if (motion == motion_)
+    return;
+  motion_ = motion;
+  patient_->setMotion(motion);
+  vessel_is_current_ = false;
   background_valid_ = false;
 }
 
@@ -137,15 +148,17 @@ void Fluoroscope::updateBackground()
   if (background_valid_ && patient_->revision() == patient_revision_)
     return;
   patient_revision_ = patient_->revision();
-  if (vessel_length_.empty())
-    vessel_length_ = vesselPathLength(geometry_, vessel_);
+  if (!vessel_is_current_)
+    vessel_.project(geometry_, motion_.map());
+  vessel_is_current_ = true;
+  const std::vector<double>& lengths = vessel_.lengths();
   const double lumen_density = patient_->lumenDensity();
-  background_.resize(vessel_length_.size());
-  weight_.resize(vessel_length_.size());
-  steel_slope_.resize(vessel_length_.size());
-  for (std::size_t k = 0; k < vessel_length_.size(); ++k)
+  background_.resize(lengths.size());
+  weight_.resize(lengths.size());
+  steel_slope_.resize(lengths.size());
+  for (std::size_t k = 0; k < lengths.size(); ++k)
   {
-    const double length = vessel_length_[k];
+    const double length = lengths[k];
     ArealDensities densities{static_cast<double>(patient.tissue[k]), static_cast<double>(patient.bone[k]), 0.0};
     if (length > 0.0)
     {

@@ -10,7 +10,9 @@
 #include "fluoroscopy/image/detector_image.h"
 #include "fluoroscopy/image/display.h"
 #include "fluoroscopy/image/exposure_control.h"
+#include "fluoroscopy/motion/body_motion.h"
 #include "fluoroscopy/projection/coaxial_stack.h"
+#include "fluoroscopy/projection/moving_vessel.h"
 #include "fluoroscopy/projection/patient.h"
 #include "fluoroscopy/projection/wire_projection.h"
 #include "fluoroscopy/projection/x_ray_geometry.h"
@@ -46,7 +48,7 @@ struct Frame
  *  The areal densities of tissue, bone and iodine along each pixel's ray give the primary signal by SignalTable.
  * Instruments multiply it by their transmission (WireProjection). Exposure control, scatter, noise and blur follow
  * (ExposureControl, DetectorImage), and the display image (Display). The signal without instruments is cached while
- * pose, vessel and the patient's image are unchanged. */
+ * pose, vessel, motion and the patient's image are unchanged. */
 class Fluoroscope
 {
 public:
@@ -57,12 +59,16 @@ public:
    *  @throws InputError for an invalid pose; the current pose is retained */
   void setPose(const CArmPose& pose);
 
-  /** Replaces the vessel; an empty mesh removes it.
+  /** Replaces the vessel at rest; an empty mesh removes it.
    *  @throws InputError if the mesh extends to the source; the current vessel is retained */
   void setVessel(geometry::TriangleMesh mesh);
 
   /** Replaces the patient, at first a SlabPatient of the scene's thickness. */
   void setPatient(std::unique_ptr<Patient> patient);
+
+  /** Moves vessel and patient to a phase of heart and breath, from the next frame on. At first both are at rest. */
+  void setMotion(const BodyMotion& motion);
+  const BodyMotion& motion() const { return motion_; }
 
   const XRayGeometry& geometry() const { return geometry_; }
   const XRayScene& scene() const { return scene_; }
@@ -102,10 +108,11 @@ private:
   DetectorImage detector_;
   Display display_;
   std::unique_ptr<Patient> patient_;
-  geometry::TriangleMesh vessel_;
+  MovingVessel vessel_;
+  BodyMotion motion_;
 
-  std::vector<double> vessel_length_;  ///< length of each pixel's ray in the vessel [m]; empty: to be computed
-  int patient_revision_ = 0;           ///< of the patient's image in background_
+  bool vessel_is_current_ = false;  ///< the path lengths of vessel_ are those of pose, vessel and motion
+  int patient_revision_ = 0;        ///< of the patient's image in background_
   bool background_valid_ = false;
   std::vector<float> background_;   ///< primary signal without instruments
   std::vector<float> weight_;       ///< variance weight [keV]

@@ -57,6 +57,22 @@ void MovingPatient::advance()
   update();
 }
 
+void MovingPatient::advanceWithHeart(double phase, double rate)
+{
+  checkPhase(phase, "phase of the heart");
+  checkRate(rate, kLeastHeartRate, kLargestHeartRate, "heart.rate");
+  heart_.hold(false);
+  heart_.set(phase, rate);
+  breath_.advance(time_step_);
+  update();
+}
+
+void MovingPatient::advanceInArrest()
+{
+  heart_.hold(true);
+  advance();
+}
+
 void MovingPatient::setHeartRate(double rate)
 {
   checkRate(rate, kLeastHeartRate, kLargestHeartRate, "heart.rate");

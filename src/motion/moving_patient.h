@@ -41,6 +41,14 @@ public:
   void setControls(const MotionControls& controls);
   MotionControls controls() const { return {heart_.nextRate(), breath_.nextRate(), breath_.held()}; }
   /** @} */
+  /** Advances by a step in which a clock outside leads the heart, such as that of the flow of blood.
+   *  @param phase of the heart at the end of the step, in [0, 1)
+   *  @param rate of the present beat [Hz]
+   *  @throws std::invalid_argument for others */
+  void advanceWithHeart(double phase, double rate);
+  /** Advances by a step of an arrest: the heart stops at the end of its beat. */
+  void advanceInArrest();
+
   /** Sets the heart by a clock outside, such as that of the flow of blood.
    *  @param phase in [0, 1), 0 at end-diastole
    *  @param rate of the present beat [Hz]

@@ -52,7 +52,7 @@ void observePatient(const simulation::Simulation& simulation, Observation& obser
 /** Point of the instruments' centreline, as place in the resting patient [m]. */
 Eigen::Vector3d restingPointAt(const simulation::Simulation& simulation, double inserted)
 {
-  return simulation::restingPlace(simulation, simulation::pointAt(simulation, inserted));
+  return simulation.atRest(simulation::pointAt(simulation, inserted));
 }
 
 }  // namespace

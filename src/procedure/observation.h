@@ -13,8 +13,8 @@
 namespace endovascular_sim::procedure
 {
 
-/** Observable state of one instrument. Positions are places in the resting patient, patient frame: a person, too, judges
- *  a tip by the vessel around it, which moves with the patient. */
+/** Observable state of one instrument. Points lie in the vessel at rest, also where the patient moves: goals, branches
+ *  and lengths of paths do not contain the motion of the heart. */
 struct InstrumentView
 {
   simulation::HandState hand;

@@ -138,14 +138,15 @@ int firstInsertedNode(const simulation::Simulation& simulation)
 void RunResult::checkOutside(const simulation::Simulation& simulation, const contact::Detector& wall)
 {
   int outside = 0;
-  clearances_.resize(simulation.state().position.size());
+  const std::vector<Eigen::Vector3d>& positions = simulation.positionsAtRest();
+  clearances_.resize(positions.size());
   if (wall_version_ != wall.vesselVersion())
     for (Clearance& clearance : clearances_)
       clearance.distance = 0.0;
   wall_version_ = wall.vesselVersion();
   for (int i = firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
   {
-    const Eigen::Vector3d& position = simulation.state().position[i];
+    const Eigen::Vector3d& position = positions[i];
     Clearance& clearance = clearances_[i];
     // The distance from the wall is 1-Lipschitz.
     if ((position - clearance.position).norm() < kSafeShare * clearance.distance)

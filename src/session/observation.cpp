@@ -18,7 +18,7 @@ procedure::BranchPosition Observation::branch(int instrument) const
 {
   const double insertion = hand(instrument).insertion;
   return insertion > 0.0
-             ? world_.branches()->at(simulation::restingPlace(simulation_, simulation::pointAt(simulation_, insertion)))
+             ? world_.branches()->at(simulation_.atRest(simulation::pointAt(simulation_, insertion)))
              : procedure::BranchPosition();
 }
 
@@ -38,7 +38,7 @@ double Observation::bloodFlow(const Eigen::Vector3d& point) const
   if (blood() == nullptr)
     return std::nan("");
   return simulation_.blood()->places().flowAt(
-      *blood(), simulation_.blood()->paths().locate(simulation::restingPlace(simulation_, point)));
+      *blood(), simulation_.blood()->paths().locate(simulation_.atRest(point)));
 }
 
 double Observation::bloodPressure(const Eigen::Vector3d& point) const
@@ -46,7 +46,7 @@ double Observation::bloodPressure(const Eigen::Vector3d& point) const
   if (blood() == nullptr)
     return std::nan("");
   return simulation_.blood()->places().pressureAt(
-      *blood(), simulation_.blood()->paths().locate(simulation::restingPlace(simulation_, point)));
+      *blood(), simulation_.blood()->paths().locate(simulation_.atRest(point)));
 }
 
 const motion::MovingPatient* Observation::motion() const

@@ -60,7 +60,7 @@ struct Session::Run
     if (scene->flow && world->vessel() != nullptr)
       addBlood(settings);
     if (scene->motion && world->vessel() != nullptr)
-      simulation.setMotion(std::make_unique<simulation::MotionCoupling>(world->motion()));
+      simulation.setMotion(world->motion());
     if (scene->procedure && world->vessel() != nullptr)
       scripted.emplace(*scene, world->branches(), world->entry().position);
   }

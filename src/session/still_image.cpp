@@ -42,6 +42,7 @@ const fluoroscopy::Frame& StillImage::frame(const simulation::Simulation& simula
   system_.fluoroscope().setPose(pose_);
   if (wall != nullptr)
     system_.fluoroscope().setVessel(*wall);
+  system_.fluoroscope().setMotion(simulation::bodyMotion(simulation));
   return system_.fluoroscope().render(system_.wires(simulation));
 }
 

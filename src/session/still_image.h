@@ -11,8 +11,9 @@
 namespace endovascular_sim::session
 {
 
-/** Single X-ray images of a simulation, with the pose, technique and patient of its scene. With `follow_tip`, or
- * without `isocentre`, the isocentre is the tip of the instrument that reaches farthest. */
+/** Single X-ray images of a simulation, with the pose, technique and patient of its scene, and heart and lungs where
+ * they are after the last step. With `follow_tip`, or without `isocentre`, the isocentre is the tip of the instrument
+ * that reaches farthest. */
 class StillImage
 {
 public:
@@ -30,7 +31,7 @@ public:
   void restart() { system_.fluoroscope().restart(); }
 
   /** Next image of a simulation, valid until the next call.
-   *  @param wall present wall of the vessel, empty without one; null: that of the image before */
+   *  @param wall present wall of the vessel at rest, empty without one; null: that of the image before */
   const fluoroscopy::Frame& frame(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall);
 
 private:

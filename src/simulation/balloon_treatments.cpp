@@ -90,6 +90,7 @@ double BalloonTreatments::coveredFrom(int instrument, const rod::State& state, c
 /** Part of the shaft under a balloon that is in the vessel; none when the balloon is outside. */
 std::optional<intervention::ShaftLine> BalloonTreatments::shaftOf(const InstrumentTreatment& treated,
                                                                   const rod::State& state,
+                                                                  const std::vector<Eigen::Vector3d>& at_rest,
                                                                   const rod::Discretisation& rod) const
 {
   const intervention::Treatment& treatment = treated.treatment;
@@ -107,7 +108,7 @@ std::optional<intervention::ShaftLine> BalloonTreatments::shaftOf(const Instrume
   for (int i = std::min(first, last - 1); i <= last; ++i)
   {
     from_tip.push_back(tip - rod.position[i]);
-    points.push_back(state.position[i]);
+    points.push_back(at_rest[i]);
   }
   return intervention::ShaftLine(std::move(from_tip), std::move(points));
 }
@@ -249,7 +250,7 @@ void BalloonTreatments::collectEvents(const InstrumentTreatment& treated, std::u
 }
 
 void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& commanded, const rod::State& state,
-                                const rod::Discretisation& rod)
+                                const std::vector<Eigen::Vector3d>& at_rest, const rod::Discretisation& rod)
 {
   const intervention::Treatment* strongest = nullptr;
   for (InstrumentTreatment& treated : treatments_)
@@ -257,7 +258,7 @@ void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& c
     const double covered_from = coveredFrom(treated.instrument, state, rod);
     if (isHeldBack(treated, covered_from, state))
       treated.treatment.dislodgeStent();
-    const std::optional<intervention::ShaftLine> shaft = shaftOf(treated, state, rod);
+    const std::optional<intervention::ShaftLine> shaft = shaftOf(treated, state, at_rest, rod);
     const intervention::BalloonLoad& load = treated.treatment.step(
         time_step_, commanded[static_cast<std::size_t>(treated.instrument)], shaft ? &*shaft : nullptr, covered_from);
     if (load.sleeve)

@@ -44,6 +44,8 @@ struct TimedEvent
 
 /** Balloons and stents of a scene: the coupling of the rod, which carries them, with the wall, which they deform.
  *
+ *  Balloons, stents and the deformed wall lie in the vessel at rest, also in a patient who moves.
+ *
  *  After every kBalloonLoadPeriod-th step the balloon with the highest pressure loads the wall. Contact detection uses
  * the resulting wall from the next such step on: a lag that leaves time to compute the wall displacement elsewhere. */
 class BalloonTreatments
@@ -67,9 +69,10 @@ public:
 
   /** Advances inflation and stents after a step, and loads the wall.
    *  @param step number of that step, from 0
-   *  @param commanded pressure at the inflator of every instrument [Pa] */
+   *  @param commanded pressure at the inflator of every instrument [Pa]
+   *  @param at_rest places of the nodes in the vessel at rest [m] */
   void endStep(std::uint64_t step, const std::vector<double>& commanded, const rod::State& state,
-               const rod::Discretisation& rod);
+               const std::vector<Eigen::Vector3d>& at_rest, const rod::Discretisation& rod);
 
   const std::vector<TimedEvent>& events() const { return events_; }  ///< events of all steps
 
@@ -98,6 +101,7 @@ private:
   double tipOf(int instrument, const rod::State& state, const rod::Discretisation& rod) const;
   double coveredFrom(int instrument, const rod::State& state, const rod::Discretisation& rod) const;
   std::optional<intervention::ShaftLine> shaftOf(const InstrumentTreatment& treated, const rod::State& state,
+                                                 const std::vector<Eigen::Vector3d>& at_rest,
                                                  const rod::Discretisation& rod) const;
   bool isHeldBack(const InstrumentTreatment& treated, double covered_from, const rod::State& state) const;
   void collectEvents(const InstrumentTreatment& treated, std::uint64_t step);

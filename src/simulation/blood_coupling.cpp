@@ -51,7 +51,9 @@ struct WirePoint
   double share = 0.0;  ///< position on the edge, 0 to 1
 };
 
-WirePoint pointOf(const rod::State& state, const rod::Discretisation& rod, double from_end)
+/** @param positions of the nodes, in the moved patient or at rest [m] */
+WirePoint pointOf(const rod::State& state, const std::vector<Eigen::Vector3d>& positions,
+                  const rod::Discretisation& rod, double from_end)
 {
   const double arc = rod.length() - from_end;
   const auto after = std::upper_bound(rod.position.begin() + state.first_node, rod.position.end(), arc);
@@ -59,9 +61,14 @@ WirePoint pointOf(const rod::State& state, const rod::Discretisation& rod, doubl
   WirePoint point;
   point.node = std::clamp(static_cast<int>(after - rod.position.begin()) - 1, std::min(state.first_node, last), last);
   point.share = std::clamp((arc - rod.position[point.node]) / rod.rest_length[point.node], 0.0, 1.0);
-  point.position =
-      state.position[point.node] + point.share * (state.position[point.node + 1] - state.position[point.node]);
+  point.position = positions[point.node] + point.share * (positions[point.node + 1] - positions[point.node]);
   return point;
+}
+
+/** Velocity in the moved patient of a stream along a vessel that moves. @param at_rest its place at rest [m] */
+Eigen::Vector3d carried(const Eigen::Vector3d& velocity, const Eigen::Vector3d& at_rest, const motion::MotionMap& map)
+{
+  return velocity.norm() * (map.gradient(at_rest) * velocity).normalized() + map.velocity(at_rest);
 }
 
 /** Velocity linear between two samples, which descend by their distance from the end. */
@@ -149,6 +156,16 @@ int BloodCoupling::lineOf(int instrument) const
   return line_of_.at(static_cast<std::size_t>(instrument));
 }
 
+HeartClock BloodCoupling::heartClock(std::uint64_t step, double time_step) const
+{
+  const double rate = controls_.heart_rate;
+  const double since = static_cast<double>(step % period_ + 1) * time_step;  // since the last result
+  const double phase = (now_ ? now_->field.phase : 0.0) +
+                       rate * (since + (now_ ? 0.0 : static_cast<double>(step - step % period_) * time_step)) +
+                       rate * settings_.circulation.heart.contraction;
+  return {phase - std::floor(phase), rate};
+}
+
 void BloodCoupling::take()
 {
   if (pending_ && !next_)
@@ -161,13 +178,14 @@ void BloodCoupling::take()
   request_.state = now_->state;
 }
 
-void BloodCoupling::exchange(const rod::State& state, const rod::Discretisation& rod,
+void BloodCoupling::exchange(const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest,
+                             const motion::MotionMap* map, const rod::Discretisation& rod,
                              const BalloonTreatments& treatments, const std::vector<Eigen::Vector3d>& wall,
                              std::uint64_t version)
 {
   take();
-  sampleStream(state, rod);
-  findThrusts(state, rod, treatments);
+  sampleStream(state, at_rest, map, rod);
+  findThrusts(state, treatments);
   if (!is_measured_ || version != measured_version_)
   {
     request_.lumens = lumens_.measure(wall);
@@ -175,15 +193,15 @@ void BloodCoupling::exchange(const rod::State& state, const rod::Discretisation&
     is_measured_ = true;
   }
   request_.controls = controls_;
-  describeInstruments(state, rod, treatments);
+  describeInstruments(state, at_rest, rod, treatments);
   source_->request(request_);
   ++request_.step;
   pending_ = true;
 }
 
 /** Sets what instruments leave of the lumen, and the places of their openings and balloons. */
-void BloodCoupling::describeInstruments(const rod::State& state, const rod::Discretisation& rod,
-                                        const BalloonTreatments& treatments)
+void BloodCoupling::describeInstruments(const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest,
+                                        const rod::Discretisation& rod, const BalloonTreatments& treatments)
 {
   request_.instruments.clear();
   request_.probes.clear();
@@ -194,7 +212,7 @@ void BloodCoupling::describeInstruments(const rod::State& state, const rod::Disc
     const double inserted = insertionOf(k, state);
     flow::TreePath path({});
     if (inserted > 0.0)
-      path = paths().between(paths().locate(pointOf(state, rod, behindEnd(k, state)).position), entry_);
+      path = paths().between(paths().locate(pointOf(state, at_rest, rod, behindEnd(k, state)).position), entry_);
     for (const Piece& piece : pieces_[index])
       path.addSpans(piece.begin, std::min(piece.end, inserted), piece.radius, request_.instruments);
     if (lines_[index])
@@ -214,8 +232,7 @@ void BloodCoupling::describeInstruments(const rod::State& state, const rod::Disc
 }
 
 /** Finds the thrust Δp·A of the blood on inflated balloons, by the pressures at their ends. */
-void BloodCoupling::findThrusts(const rod::State& state, const rod::Discretisation& rod,
-                                const BalloonTreatments& treatments)
+void BloodCoupling::findThrusts(const rod::State& state, const BalloonTreatments& treatments)
 {
   thrusts_.clear();
   if (!now_)
@@ -237,7 +254,6 @@ void BloodCoupling::findThrusts(const rod::State& state, const rod::Discretisati
       continue;
     thrusts_.push_back({k, from_end, (before - behind) * kPi * radius * radius});
   }
-  (void)rod;
 }
 
 bool BloodCoupling::isSoft(const rod::Discretisation& rod, int node) const
@@ -267,7 +283,8 @@ BloodCoupling::StreamSample BloodCoupling::sampleAt(const rod::State& state, con
 }
 
 /** Finds the stream along the soft part of the wire, from its end. */
-void BloodCoupling::sampleStream(const rod::State& state, const rod::Discretisation& rod)
+void BloodCoupling::sampleStream(const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest,
+                                 const motion::MotionMap* map, const rod::Discretisation& rod)
 {
   stream_.clear();
   if (!now_ || settings_.drag == scene::FlowDrag::kNone)
@@ -277,8 +294,10 @@ void BloodCoupling::sampleStream(const rod::State& state, const rod::Discretisat
   flow::TreePlace place;
   const auto sample = [&](int node)
   {
-    place = paths().locate(state.position[node], place);
+    place = paths().locate(at_rest[node], place);
     stream_.push_back(sampleAt(state, rod, node, place));
+    if (map != nullptr && stream_.back().crosswise != 0.0)
+      stream_.back().velocity = carried(stream_.back().velocity, at_rest[node], *map);
   };
   for (int i = rod.nodes() - 1; i > state.first_node && rod.position[i] > mouth; --i)
   {
@@ -299,7 +318,7 @@ void BloodCoupling::addLoads(const rod::State& state, const rod::Discretisation&
 {
   for (const Thrust& thrust : thrusts_)
   {
-    const WirePoint at = pointOf(state, rod, thrust.from_end);
+    const WirePoint at = pointOf(state, state.position, rod, thrust.from_end);
     const Eigen::Vector3d along = (state.position[at.node + 1] - state.position[at.node]).normalized();
     input.forces.push_back({at.node, (1.0 - at.share) * thrust.force * along, thrust.instrument});
     input.forces.push_back({at.node + 1, at.share * thrust.force * along, thrust.instrument});

@@ -19,6 +19,7 @@
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
 #include "simulation/balloon_treatments.h"
+#include "simulation/motion_coupling.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim::simulation
@@ -65,10 +66,16 @@ public:
   bool isPending() const { return pending_; }
 
   /** Takes the last step of the flow and begins the next one.
+   *  @param at_rest places of the nodes in the vessel at rest [m]
+   *  @param map from there to the moved patient; null: he rests
    *  @param wall vertices of the wall in which contact is detected, of version @p version
    *  @throws InputError when the source does not answer */
-  void exchange(const rod::State& state, const rod::Discretisation& rod, const BalloonTreatments& treatments,
+  void exchange(const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest, const motion::MotionMap* map,
+                const rod::Discretisation& rod, const BalloonTreatments& treatments,
                 const std::vector<Eigen::Vector3d>& wall, std::uint64_t version);
+
+  /** Clock of the heart at the end of a step. @param step number of the step  @param time_step of the simulation [s] */
+  HeartClock heartClock(std::uint64_t step, double time_step) const;
 
   /** Adds the drag on soft sections, and the thrust on balloons. */
   void addLoads(const rod::State& state, const rod::Discretisation& rod, rod::StepInput& input) const;
@@ -117,10 +124,11 @@ private:
   };
 
   void take();
-  void describeInstruments(const rod::State& state, const rod::Discretisation& rod,
-                           const BalloonTreatments& treatments);
-  void sampleStream(const rod::State& state, const rod::Discretisation& rod);
-  void findThrusts(const rod::State& state, const rod::Discretisation& rod, const BalloonTreatments& treatments);
+  void describeInstruments(const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest,
+                           const rod::Discretisation& rod, const BalloonTreatments& treatments);
+  void sampleStream(const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest, const motion::MotionMap* map,
+                    const rod::Discretisation& rod);
+  void findThrusts(const rod::State& state, const BalloonTreatments& treatments);
   bool isSoft(const rod::Discretisation& rod, int node) const;
   StreamSample sampleAt(const rod::State& state, const rod::Discretisation& rod, int node,
                         const flow::TreePlace& place) const;

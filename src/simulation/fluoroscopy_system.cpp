@@ -1,6 +1,7 @@
 #include "simulation/fluoroscopy_system.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "common/error.h"
@@ -36,7 +37,28 @@ fluoroscopy::XRayScene techniqueOf(const scene::FluoroscopyScene& scene, std::ui
   return result;
 }
 
+/** X-ray wires of an instrument's balloon and stent, with the vessel at rest. */
+void appendTreatment(const intervention::Treatment& treatment, const fluoroscopy::DeviceDensity& filling,
+                     const fluoroscopy::DeviceDensity& metal, std::vector<fluoroscopy::XRayWire>& wires)
+{
+  const intervention::RoundBody& balloon = treatment.load().balloon;
+  if (!balloon.axis.empty())
+    wires.push_back(fluoroscopy::balloonWire(balloon.axis, balloon.radii, filling));
+  if (treatment.stent() && !treatment.stent()->sleeve().axis.empty())
+    for (fluoroscopy::XRayWire& strut : fluoroscopy::strutWires(intervention::stentStruts(treatment.stent()->sleeve()),
+                                                                treatment.stent()->strutThickness(), metal))
+      wires.push_back(std::move(strut));
+}
+
 }  // namespace
+
+fluoroscopy::BodyMotion bodyMotion(const Simulation& simulation)
+{
+  if (simulation.motion() == nullptr)
+    return {};
+  const motion::MovingPatient& patient = simulation.motion()->patient();
+  return {patient.map(), patient.diaphragm()};
+}
 
 FluoroscopySystem::FluoroscopySystem(const scene::Scene& scene, const fluoroscopy::MaterialLibrary& library)
   : fluoroscope_(xRayOf(scene).pose(), techniqueOf(xRayOf(scene), scene.seed), library)
@@ -64,19 +86,13 @@ std::vector<fluoroscopy::XRayWire> FluoroscopySystem::wires(const Simulation& si
     behind.push_back(furthest - simulation.hand(k).insertion);
   std::vector<fluoroscopy::XRayWire> wires;
   wires.push_back(fluoroscopy::coaxialStack(nodes, instruments_, behind, {fluids_}));
+  std::vector<fluoroscopy::XRayWire> treatment;
   for (int k = 0; k < simulation.instruments(); ++k)
-  {
-    const intervention::Treatment* treatment = simulation.treatment(k);
-    if (treatment == nullptr)
-      continue;
-    const intervention::RoundBody& balloon = treatment->load().balloon;
-    if (!balloon.axis.empty())
-      wires.push_back(fluoroscopy::balloonWire(balloon.axis, balloon.radii, filling_));
-    if (treatment->stent() && !treatment->stent()->sleeve().axis.empty())
-      for (fluoroscopy::XRayWire& strut : fluoroscopy::strutWires(
-               intervention::stentStruts(treatment->stent()->sleeve()), treatment->stent()->strutThickness(), metal_))
-        wires.push_back(std::move(strut));
-  }
+    if (simulation.treatment(k) != nullptr)
+      appendTreatment(*simulation.treatment(k), filling_, metal_, treatment);
+  if (simulation.motion() != nullptr)
+    fluoroscopy::moveWires(simulation.motion()->patient().map(), treatment);
+  std::move(treatment.begin(), treatment.end(), std::back_inserter(wires));
   return wires;
 }
 

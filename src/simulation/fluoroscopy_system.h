@@ -11,6 +11,9 @@
 namespace endovascular_sim::simulation
 {
 
+/** Motion of a simulation's patient after the last step; at rest in a scene without motion. */
+fluoroscopy::BodyMotion bodyMotion(const Simulation& simulation);
+
 /** X-ray system of a scene, and the X-ray wires of instruments, balloons and stents. */
 class FluoroscopySystem
 {
@@ -28,7 +31,7 @@ public:
   /** Density of a stent's struts minus that of their surroundings. */
   const fluoroscopy::DeviceDensity& metal() const { return metal_; }
 
-  /** X-ray wires of all instruments, balloons and stents of a simulation. */
+  /** X-ray wires of all instruments, balloons and stents of a simulation, where they are in the moved patient. */
   std::vector<fluoroscopy::XRayWire> wires(const Simulation& simulation) const;
 
 private:

@@ -41,11 +41,6 @@ Eigen::Vector3d pointAt(const Simulation& simulation, double inserted)
   return state.position[k - 1] + share * (state.position[k] - state.position[k - 1]);
 }
 
-Eigen::Vector3d restingPlace(const Simulation& simulation, const Eigen::Vector3d& point)
-{
-  return simulation.motion() != nullptr ? simulation.motion()->patient().map().pullBack(point) : point;
-}
-
 double tipRotation(const Simulation& simulation, int instrument)
 {
   const rod::State& state = simulation.state();

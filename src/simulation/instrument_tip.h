@@ -11,10 +11,6 @@ namespace endovascular_sim::simulation
  *  @param inserted length beyond the introducer [m]; negative outside */
 Eigen::Vector3d pointAt(const Simulation& simulation, double inserted);
 
-/** Place in the resting patient of a point in the moved one: vessel, branches and flow describe the resting patient.
- * The point itself in a scene without the key `motion` [m]. */
-Eigen::Vector3d restingPlace(const Simulation& simulation, const Eigen::Vector3d& point);
-
 /** Rotation of an instrument's material about the centreline at its distal end [rad]: zero, sign and full turns are
  * those of HandState::rotation, which it equals without torque. */
 double tipRotation(const Simulation& simulation, int instrument);

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "motion/contact/moving_wall.h"
 #include "motion/moving_patient.h"
 #include "scene/model/scene.h"
 #include "scene/scene_vessel.h"
@@ -24,15 +25,35 @@ struct PatientMotion
 
 /** Places the motion of a scene in its vessel and checks it.
  *  @param scene with the key `motion`
- *  @throws InputError with key and remedy, see motion::makeMovingPatient(); and if the introducer lies where the patient
- *          moves */
+ *  @throws InputError with key and remedy, see motion::makeMovingPatient(); and if the introducer lies where the
+ * patient moves */
 PatientMotion makePatientMotion(const scene::Scene& scene, const vessel::Vessel& vessel, const scene::EntryPose& entry);
+
+/** Clock of a heart outside of the motion, e.g. that of the flow of blood. */
+struct HeartClock
+{
+  double phase = 0.0;  ///< at the end of the coming step, 0 at end-diastole [1]
+  double rate = 0.0;   ///< [Hz]; 0: arrest
+};
 
 /** Motion of the patient in a simulation: it advances with every step, and the wall with it. */
 class MotionCoupling
 {
 public:
-  explicit MotionCoupling(const PatientMotion& motion) : patient_(motion.patient), bounds_(motion.bounds) {}
+  /** @param time_step of the simulation [s]
+   *  @param contacts of the vessel at rest; null without a vessel. Must outlive this */
+  MotionCoupling(const PatientMotion& motion, double time_step, contact::ContactSource* contacts);
+
+  /** Contact sets of the moving vessel. */
+  contact::ContactSource* contacts() { return &wall_; }
+
+  /** Advances the patient by a step, in which the wall then moves.
+   *  @param clock that the heart follows: its speed differs from the rate by at most a half while it catches up; null:
+   *         its own */
+  void beginStep(const HeartClock* clock);
+
+  /** Motion of the wall in the present step; null if nothing moves. */
+  contact::WallMotion* wall() { return wall_.moves() ? &wall_ : nullptr; }
 
   /** Rates and breath-hold; a rate acts from the next beat or breath on.
    *  @throws std::invalid_argument for values that motion::refusalOf() refuses @{ */
@@ -49,8 +70,9 @@ public:
   void archive(Archive& archive);
 
 private:
+  double time_step_;
   motion::MovingPatient patient_;
-  motion::MapBounds bounds_;
+  motion::MovingWall wall_;
 };
 
 }  // namespace endovascular_sim::simulation

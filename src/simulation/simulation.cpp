@@ -271,8 +271,10 @@ void Simulation::resample()
   if (!samples_ || steps_ % sampling_every_ != 0 || stepper_->contactSet().stale)
     return;
   PhaseTimer::Scope scope(timer_, Phase::kSampling);
-  if (sampling_->update(state_))
-    stepper_->resample(sampling_->discretisation());
+  if (!sampling_->update(state_, &positionsAtRest()))
+    return;
+  stepper_->resample(sampling_->discretisation());
+  positions_at_rest_.clear();
 }
 
 /** Sets the least radius for contact at every node. */
@@ -366,16 +368,17 @@ void Simulation::moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t
     repeat();
   }
   if (report_.solved && isBeyondGrip(state_) && !isBeyondGrip(before_))
-    rest();
+    rest(input);
   for (int k = 0; report_.solved && k < instruments(); ++k)
     hands_[k].noteSlip(rod::handleState(before_, k).inserted_length, wanted[k].inserted_length,
                        handles_[k].inserted_length);
 }
 
-/** Undoes the sub-step. */
-void Simulation::rest()
+/** Undoes the sub-step; the wall goes on. @param input of the sub-step */
+void Simulation::rest(const rod::StepInput& input)
 {
   setState(before_);
+  carry(input.wall_from, input.wall_to);
   if (observer_ != nullptr)
     observer_->revert();
   for (int k = 0; k < instruments(); ++k)
@@ -428,7 +431,7 @@ std::uint64_t Simulation::beginTreatments()
 void Simulation::endTreatments()
 {
   PhaseTimer::Scope scope(timer_, treatments_.empty() ? Phase::kControl : Phase::kBalloon);
-  treatments_.endStep(steps_, pressures_, state_, discretisation());
+  treatments_.endStep(steps_, pressures_, state_, positionsAtRest(), discretisation());
 }
 
 void Simulation::setBlood(std::unique_ptr<BloodCoupling> blood,
@@ -444,7 +447,61 @@ void Simulation::exchangeBlood(std::uint64_t vessel_version)
   if (!blood_ || !blood_->isDue(steps_))
     return;
   PhaseTimer::Scope scope(timer_, Phase::kBlood);
-  blood_->exchange(state_, discretisation(), treatments_, wall_(), vessel_version);
+  blood_->exchange(state_, positionsAtRest(), motion_ ? &motion_->patient().map() : nullptr, discretisation(),
+                   treatments_, wall_(), vessel_version);
+}
+
+void Simulation::setMotion(const PatientMotion& motion)
+{
+  if (!scene_.solver.traits().moving_walls || motion_)
+    throw std::logic_error("Simulation: a moving patient requires the scheme kkt, and is set once");
+  motion_ = std::make_unique<MotionCoupling>(motion, scene_.solver.time_step, contacts_);
+  if (contacts_ != nullptr)
+    contacts_ = motion_->contacts();
+  positions_at_rest_.clear();
+}
+
+const std::vector<Eigen::Vector3d>& Simulation::positionsAtRest() const
+{
+  if (!motion_)
+    return state_.position;
+  if (positions_at_rest_.empty())
+    motion_->patient().map().pullBack(state_.position, positions_at_rest_);
+  return positions_at_rest_;
+}
+
+/** Advances the patient. With flow of blood, the heart follows its clock. */
+void Simulation::beginMotion()
+{
+  if (!motion_)
+    return;
+  PhaseTimer::Scope scope(timer_, Phase::kControl);
+  const std::optional<HeartClock> clock =
+      blood_ ? blood_->heartClock(steps_, scene_.solver.time_step) : std::optional<HeartClock>();
+  motion_->beginStep(clock ? &*clock : nullptr);
+  positions_at_rest_.clear();
+}
+
+/** Carries a wire that rests in the vessel with the wall. @param from, to shares of the step */
+void Simulation::carry(double from, double to)
+{
+  if (!motion_ || motion_->wall() == nullptr)
+    return;
+  contact::WallTravel travel;
+  motion_->wall()->move(from, to, state_.position, state_.first_node, travel);
+  for (std::size_t i = 0; i < travel.displacement.size(); ++i)
+    state_.position[i] += travel.displacement[i];
+  stepper_->invalidateContacts();
+}
+
+/** Sets the motion of the wall in a sub-step. */
+void Simulation::setWall(int substep, int substeps, rod::StepInput& input)
+{
+  if (!motion_)
+    return;
+  input.wall = motion_->wall();
+  input.wall_from = static_cast<double>(substep - 1) / substeps;
+  input.wall_to = static_cast<double>(substep) / substeps;
 }
 
 void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
@@ -474,9 +531,11 @@ void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
   std::uint32_t pass = 0;
   const std::uint64_t vessel_version = beginTreatments();
   exchangeBlood(vessel_version);
+  beginMotion();
   for (int k = 1; k <= substeps; ++k)
   {
     rod::StepInput input;
+    setWall(k, substeps, input);
     input.step = steps_;
     input.substep = static_cast<std::uint32_t>(k - 1);
     input.vessel_version = vessel_version;
@@ -497,8 +556,12 @@ void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
     if (rollers_move && observer_ != nullptr && report_.solved)
       observer_->addMovedWall(workOfRollers(rollers));
     if (!report_.solved)
-      break;  // the wire keeps its position; later steps make up for the motion of the handle
+    {
+      carry(input.wall_from, 1.0);
+      break;  // the wire keeps its position in the vessel; later steps make up for the motion of the handle
+    }
   }
+  positions_at_rest_.clear();
   endTreatments();
   ++steps_;
   state_hash_ = state_.hash();
@@ -514,6 +577,7 @@ void Simulation::setObserver(rod::SolutionObserver* observer)
 void Simulation::setState(rod::State state)
 {
   state_ = std::move(state);
+  positions_at_rest_.clear();
   stepper_->invalidateContacts();
 }
 

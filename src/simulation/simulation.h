@@ -118,13 +118,23 @@ public:
   BloodCoupling* blood() { return blood_.get(); }
   /** @} */
 
-  /** Moves the patient from the next step on; before the first step. */
-  void setMotion(std::unique_ptr<MotionCoupling> motion) { motion_ = std::move(motion); }
+  /** Moves the patient from now on; once, before the first step.
+   *  @throws std::logic_error for a scheme without SchemeTraits::moving_walls, or a second call */
+  void setMotion(const PatientMotion& motion);
 
   /** Motion of the patient; null in a scene without the key `motion`. @{ */
   const MotionCoupling* motion() const { return motion_.get(); }
   MotionCoupling* motion() { return motion_.get(); }
   /** @} */
+
+  /** Place at rest of a point of the moved patient: where it lies in the vessel of the scene [m]. */
+  Eigen::Vector3d atRest(const Eigen::Vector3d& point) const
+  {
+    return motion_ ? motion_->patient().map().pullBack(point) : point;
+  }
+
+  /** Places at rest of all nodes; their positions in a patient who does not move. Valid until the next change. */
+  const std::vector<Eigen::Vector3d>& positionsAtRest() const;
 
   /** Stops adaptive sampling: the nodes keep their positions along the wire. */
   void keepSampling() { samples_ = false; }
@@ -183,11 +193,14 @@ private:
   std::uint64_t beginTreatments();
   void endTreatments();
   void exchangeBlood(std::uint64_t vessel_version);
+  void beginMotion();
+  void carry(double from, double to);
+  void setWall(int substep, int substeps, rod::StepInput& input);
   void prepareContactRadii();
   void moveWire(const rod::StepInput& input, double dt, std::uint32_t& pass);
   void moveWithinGrips(rod::StepInput& input, double dt, std::uint32_t& pass);
   bool isBeyondGrip(const rod::State& state) const;
-  void rest();
+  void rest(const rod::StepInput& input);
   drive::GripSearch gripSearch() const;
 
   scene::Scene scene_;
@@ -210,10 +223,11 @@ private:
   std::vector<double> hand_forces_, hand_positions_;
   rod::HemostaticValve valve_;
   BalloonTreatments treatments_;
-  std::unique_ptr<BloodCoupling> blood_;    ///< null: blood does not flow
-  std::unique_ptr<MotionCoupling> motion_;  ///< null: the patient rests
+  std::unique_ptr<BloodCoupling> blood_;  ///< null: blood does not flow
   std::function<const std::vector<Eigen::Vector3d>&()> wall_;
-  std::vector<double> pressures_;  ///< commanded pressure of every instrument [Pa]
+  std::unique_ptr<MotionCoupling> motion_;                  ///< null: the patient rests
+  mutable std::vector<Eigen::Vector3d> positions_at_rest_;  ///< empty: not known
+  std::vector<double> pressures_;                           ///< commanded pressure of every instrument [Pa]
   PhaseTimer timer_;
   Hash64 trajectory_;
   std::uint64_t state_hash_ = 0;

@@ -147,6 +147,7 @@ void Simulation::archive(Archive& archive)
     archive(*blood_);
   if (motion_)
     archive(*motion_);
+  positions_at_rest_.clear();
 }
 
 /** Checks the state against the wire and the scene. A distal end far from its motion would take very many sub-steps. */

@@ -12,8 +12,8 @@
 namespace endovascular_sim::simulation
 {
 
-/** Resolution of single images: complete in the first frame. */
-constexpr fluoroscopy::ProgressiveResolution kStillResolution{512, 512, 1 << 20};
+/** Resolution of single images: complete in the first frame, and exact in a moving patient. */
+constexpr fluoroscopy::ProgressiveResolution kStillResolution{512, 512, 1 << 20, fluoroscopy::MotionSampling::kExact};
 
 /** Resolution of a sequence: 128² while C-arm or table move, 256² within 0.9 s of rest.
  *  @param rate frame rate [Hz] */

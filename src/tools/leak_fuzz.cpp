@@ -46,6 +46,7 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.option("--seed", options.settings.seed, "S", "seed of the random choices [1]");
   line.flag("--smooth", options.settings.smooth, "smooth walls (vessel.wall: smooth) in place of facets");
   line.flag("--coaxial", options.settings.coaxial, "a wire in a catheter, each with a hand of its own");
+  line.flag("--moving", options.settings.moving, "the vessel moves by 10 mm at 90 beats per minute");
   line.flag("--resume", options.resume, "continues from DIR/leak_fuzz.json");
   line.option("--episode", options.episode, "K", "runs this episode only, prints its result and writes no file");
   line.repeated("--mesh", options.meshes, "FILE",
@@ -90,6 +91,8 @@ std::string reproduction(const Options& options)
     command += " --smooth";
   if (options.settings.coaxial)
     command += " --coaxial";
+  if (options.settings.moving)
+    command += " --moving";
   for (const std::string& mesh : options.meshes)
     command += " --mesh " + mesh;
   for (const std::string& value : options.settings.overrides)

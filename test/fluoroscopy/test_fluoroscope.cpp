@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "fluoroscopy/patient/progressive_projection.h"
+#include "test/fluoroscopy/motion_fixtures.h"
 #include "test/fluoroscopy/shapes.h"
 
 namespace endovascular_sim::fluoroscopy
@@ -344,6 +346,47 @@ TEST(Fluoroscope, BloodReplacesThatOfThePatientAlongTheVessel)
     means.push_back(meanCount(frame, nearestPixel(fluoroscope.geometry(), {0.0, 0.0, 0.0})));
   }
   EXPECT_NEAR(means[1] / means[0], 1.0, 0.02);  // 60 mm of blood, which differs by less than 10 kg/m³
+}
+
+TEST(Fluoroscope, DrawsAMovedVesselAsTheMeshThatIsMovedAtItsVertices)
+{
+  geometry::TriangleMesh mesh = sphere(motion::naturalHeart().fade.centre, 0.03, 20, 30);
+  Fluoroscope moving(heartView(0.3, 0.1, 128), scene(), library()),
+      wanted(heartView(0.3, 0.1, 128), scene(), library());
+  moving.setVessel(mesh);
+  moving.render({});
+  moving.setMotion(largestMotion());
+  moving.restart();
+  for (Eigen::Vector3d& vertex : mesh.vertices)
+    vertex = largestMotion().map().position(vertex);
+  wanted.setVessel(mesh);
+  const std::vector<std::uint16_t> raw = moving.render({}).raw;
+  const std::vector<std::uint16_t>& exact = wanted.render({}).raw;
+  for (std::size_t k = 0; k < raw.size(); ++k)
+    ASSERT_NEAR(raw[k], exact[k], 1) << k;
+}
+
+TEST(Fluoroscope, AtRestHasTheBitsOfAPatientWithoutMotion)
+{
+  const geometry::TriangleMesh mesh = sphere(motion::naturalHeart().fade.centre, 0.03, 20, 30);
+  const auto projection = std::make_shared<const VolumeProjection>(smoothBody(80, 3e-3));
+  const CArmPose pose = heartView(0.3, 0.1, 96);
+  Fluoroscope moving(pose, scene(), library()), resting(pose, scene(), library());
+  for (Fluoroscope* each : {&moving, &resting})
+  {
+    each->setVessel(mesh);
+    each->setPatient(std::make_unique<ProgressiveProjection>(projection, ProgressiveResolution{48, 48, 1}));
+  }
+  moving.setMotion(largestMotion());
+  const std::vector<std::uint16_t> moved = moving.render({}).raw;
+  moving.restart();
+  for (int frame = 0; frame < 4; ++frame)
+  {
+    moving.setMotion(motionAt(0.0, 0.0));
+    const std::vector<std::uint16_t> raw = moving.render({}).raw;
+    EXPECT_NE(raw, moved);
+    EXPECT_EQ(raw, resting.render({}).raw) << frame;
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -14,6 +15,8 @@
 #include "contact/detector.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "nodes/contact/contact_node.h"
+#include "nodes/conversions/contact_conversions.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/fluoroscopy/fluoroscopy_node.h"
 #include "nodes/rod_dynamics/rod_dynamics_node.h"
 #include "nodes/runtime/ros_names.h"
@@ -21,6 +24,7 @@
 #include "nodes/session/session_bag.h"
 #include "nodes/session/session_node.h"
 #include "nodes/vessel_server/vessel_server_node.h"
+#include "nodes/visualization/motion_history.h"
 #include "nodes/visualization/visualization_node.h"
 #include "scene/scene_vessel.h"
 #include "simulation/replay_source.h"
@@ -129,6 +133,84 @@ TEST(NodeClasses, StepInOneProcessWithTheBitsOfTheOfflineSimulation)
     simulation.stepAll(simulation::commandsAt(scene, static_cast<double>(step + 1) * scene.solver.time_step));
     ASSERT_EQ(applied.state_hash, simulation.stateHash()) << "step " << step;
   }
+}
+
+/** Newest marker of a topic. */
+class MarkerListener
+{
+public:
+  explicit MarkerListener(const char* topic)
+  {
+    subscriber_ = node_.subscribe<visualization_msgs::Marker>(topic, 1,
+                                                              [this](const visualization_msgs::MarkerConstPtr& message)
+                                                              {
+                                                                const std::lock_guard<std::mutex> lock(mutex_);
+                                                                newest_ = message;
+                                                              });
+  }
+
+  visualization_msgs::MarkerConstPtr newest() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return newest_;
+  }
+
+private:
+  ros::NodeHandle node_;
+  mutable std::mutex mutex_;
+  visualization_msgs::MarkerConstPtr newest_;
+  ros::Subscriber subscriber_;
+};
+
+/** Motion of the whole tube. */
+MotionState motionOfTube(double time, double shift)
+{
+  MotionState motion;
+  motion.step = static_cast<std::uint64_t>(1e3 * time);
+  motion.time = time;
+  motion.axis.z = 1.0;
+  motion.fade_core = 1.0;
+  motion.fade_reach = 2.0;
+  motion.shift.x = shift;
+  motion.twist = 1.0;
+  return motion;
+}
+
+TEST(NodeClasses, TheMarkerOfTheVesselMovesWithThePatient)
+{
+  ros::NodeHandle node;
+  const scene::Scene scene = sceneFromParameters(node);
+  const VesselServerNode server(node, scene);
+  const VisualizationNode visualization(node, ros::NodeHandle("~"));
+  const MarkerListener listener(names::kVesselMarker);
+  ros::Publisher publisher = node.advertise<MotionState>(names::kMotionState, 10);
+  const geometry::TriangleMesh rest =
+      scene::buildVessel(*scene.vessel, scene.entry, scene.file, scene::CentrelineUse::kRequired).mesh;
+  const auto error = [&](const motion::MotionMap& map)
+  {
+    const visualization_msgs::MarkerConstPtr marker = listener.newest();
+    if (!marker || marker->points.size() != 3 * rest.triangles.size())
+      return 1.0;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < marker->points.size(); ++k)
+      largest = std::max(
+          largest,
+          (fromMessage(marker->points[k]) -
+           map.position(rest.vertices[static_cast<std::size_t>(rest.triangles[k / 3][static_cast<int>(k % 3)])]))
+              .norm());
+    return largest;
+  };
+  waitUntil(10.0, [&] { return error(restingMap()) == 0.0; });
+  EXPECT_EQ(error(restingMap()), 0.0) << "at rest before a motion";
+  double time = 0.0;
+  const auto moves = [&](double shift)
+  {
+    publisher.publish(motionOfTube(time += 0.1, shift));
+    return error(fromMessage(motionOfTube(time, shift))) < 1e-12;
+  };
+  waitUntil(10.0, [&] { return moves(5e-3); });
+  EXPECT_LT(error(fromMessage(motionOfTube(time, 5e-3))), 1e-12);
+  EXPECT_GT(error(restingMap()), 4e-3);
 }
 
 TEST(NodeClasses, SessionWritesItsReportWhenItIsDestroyed)

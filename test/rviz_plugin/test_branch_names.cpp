@@ -1,9 +1,13 @@
 #include "rviz_plugin/picture/branch_names.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "nodes/visualization/motion_history.h"
+#include "test/rviz_plugin/moved_patient.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -72,6 +76,114 @@ TEST(BranchNames, ReachToTheSurroundingsOfATipInThePicture)
   EXPECT_TRUE(std::isinf(reachOfNames({5.0, 0.0, 0.0}, view))) << "outside of the picture";
   EXPECT_TRUE(std::isinf(reachOfNames({0.0, -1.0, 0.0}, view))) << "behind the eye";
   EXPECT_TRUE(std::isinf(reachOfNames({std::nan(""), 0.0, 0.0}, view)));
+}
+
+/** Straight branch across the picture of a view from the front. */
+visualization::BranchToName straightBranch(const std::string& text, double height)
+{
+  visualization::BranchToName branch;
+  branch.text = text;
+  branch.size = sizeOf(text);
+  for (int k = -40; k <= 40; ++k)
+  {
+    branch.points.emplace_back(1e-3 * k, 0.0, height);
+    branch.radii.push_back(2e-3);
+  }
+  return branch;
+}
+
+visualization::PictureView viewFromTheFront()
+{
+  visualization::PictureView view;
+  view.eye = {0.0, -0.2, 0.0};
+  return view;
+}
+
+std::vector<visualization::BranchToName> twoBranches()
+{
+  return {straightBranch("upper branch", 0.02), straightBranch("lower branch", -0.02)};
+}
+
+/** Distance of a point from the centreline of a moved branch [m]. */
+double distanceFrom(const visualization::BranchToName& branch, const Eigen::Vector3d& point,
+                    const motion::MotionMap& map)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& rest : branch.points)
+    least = std::min(least, (map.position(rest) - point).norm());
+  return least;
+}
+
+/** End of a name's leader; far away without one. */
+Eigen::Vector3d endOf(const MovingNames& names, const std::string& text)
+{
+  for (const visualization::PlacedName& name : names.names())
+    if (name.text == text)
+      return name.end;
+  return Eigen::Vector3d::Constant(1e3);
+}
+
+TEST(MovingNames, ArePlacedBesideTheMovedBranches)
+{
+  const motion::MotionMap map = movedLargePatient();
+  MovingNames names;
+  names.place(twoBranches(), viewFromTheFront(), map);
+  ASSERT_EQ(names.names().size(), 2U);
+  for (const visualization::BranchToName& branch : twoBranches())
+    EXPECT_LT(distanceFrom(branch, endOf(names, branch.text), map), 2e-3) << "in the lumen of the moved branch";
+  std::vector<visualization::BranchToName> moved = twoBranches();
+  for (visualization::BranchToName& branch : moved)
+    for (Eigen::Vector3d& point : branch.points)
+      point = map.position(point);
+  const std::vector<visualization::PlacedName> expected = visualization::placeNames(moved, viewFromTheFront());
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    EXPECT_EQ(names.names()[k].end, expected[k].end);
+    EXPECT_EQ(names.names()[k].offset, expected[k].offset);
+  }
+}
+
+TEST(MovingNames, EndsOfTheLeadersLieWhereTheMapPutsThem)
+{
+  MovingNames names;
+  names.place(twoBranches(), viewFromTheFront(), nodes::restingMap());
+  const std::vector<visualization::PlacedName> rest = names.names();
+  ASSERT_EQ(rest.size(), 2U);
+  const motion::MotionMap map = movedLargePatient();
+  EXPECT_TRUE(names.move(map));
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    EXPECT_EQ(names.names()[k].end, map.position(rest[k].end));
+    EXPECT_GT((names.names()[k].end - rest[k].end).norm(), 5e-3);
+    EXPECT_EQ(names.names()[k].offset, rest[k].offset) << "the name stays beside its branch";
+  }
+  EXPECT_FALSE(names.move(map)) << "nothing has moved since";
+  EXPECT_TRUE(names.move(nodes::restingMap()));
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_EQ(names.names()[k].end, rest[k].end);
+}
+
+TEST(MovingNames, PlacedInAMovedPatientMoveBackWithIt)
+{
+  MovingNames names;
+  names.place(twoBranches(), viewFromTheFront(), movedLargePatient());
+  names.move(nodes::restingMap());
+  for (const visualization::BranchToName& branch : twoBranches())
+    EXPECT_LT(distanceFrom(branch, endOf(names, branch.text), nodes::restingMap()), 2e-3);
+}
+
+TEST(MovingNames, InAPatientAtRestAreThoseOfThePlacement)
+{
+  MovingNames names;
+  names.place(twoBranches(), viewFromTheFront(), nodes::restingMap());
+  EXPECT_FALSE(names.move(nodes::restingMap()));
+  const std::vector<visualization::PlacedName> expected = visualization::placeNames(twoBranches(), viewFromTheFront());
+  ASSERT_EQ(names.names().size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_EQ(names.names()[k].end, expected[k].end);
+  names.clear();
+  EXPECT_TRUE(names.empty());
+  EXPECT_FALSE(names.move(movedLargePatient()));
 }
 
 }  // namespace

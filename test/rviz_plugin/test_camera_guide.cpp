@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "test/rviz_plugin/moved_patient.h"
+
 namespace endovascular_sim::rviz_plugin
 {
 namespace
@@ -209,6 +211,60 @@ TEST(CameraGuide, IgnoresInvalidMessages)
       EXPECT_GT((pose.eye - pose.focus).norm(), 1e-3);
     }
   }
+}
+
+/** The wire in a moved patient. */
+RodStateVisual moved(RodStateVisual message, const motion::MotionMap& map)
+{
+  for (geometry_msgs::Point& node : message.nodes)
+    node = toPoint(map.position({node.x, node.y, node.z}));
+  return message;
+}
+
+CameraPose poseOf(ViewMode mode, const motion::MotionMap& map)
+{
+  CameraGuide guide(mode);
+  guide.setVessel(helix());
+  guide.setWire(moved(wireTo(9.0), map), map);
+  return guide.advance({}, kFrame, 1.5, kFieldOfView);
+}
+
+TEST(CameraGuide, StandsStillBehindTheTipWhileThePatientMoves)
+{
+  const motion::MotionMap map = movedLargePatient();
+  EXPECT_GT(map.displacement(onHelix(9.0)).norm(), 5e-3);
+  for (const ViewMode mode : {ViewMode::kOverview, ViewMode::kFollowTip})
+  {
+    const CameraPose rest = poseOf(mode, nodes::restingMap()), pose = poseOf(mode, map);
+    EXPECT_LT((pose.eye - rest.eye).norm(), 1e-9);
+    EXPECT_LT((pose.focus - rest.focus).norm(), 1e-9);
+    EXPECT_LT((pose.up - rest.up).norm(), 1e-9);
+  }
+}
+
+TEST(CameraGuide, MovesAlongTheVesselWithThePatient)
+{
+  const motion::MotionMap map = movedLargePatient();
+  const CameraPose rest = poseOf(ViewMode::kAlongVessel, nodes::restingMap()),
+                   pose = poseOf(ViewMode::kAlongVessel, map);
+  EXPECT_LT((pose.eye - map.position(rest.eye)).norm(), 1e-9);
+  EXPECT_LT((pose.focus - map.position(rest.focus)).norm(), 1e-9);
+  EXPECT_GT((pose.eye - rest.eye).norm(), 5e-3);
+  EXPECT_NEAR(pose.up.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(pose.up.dot((pose.focus - pose.eye).normalized()), 0.0, 1e-9);
+}
+
+TEST(CameraGuide, BeginsAlongTheVesselWhereTheCameraIs)
+{
+  const motion::MotionMap map = movedLargePatient();
+  CameraGuide guide(ViewMode::kAlongVessel);
+  guide.setVessel(helix());
+  guide.setWire(moved(wireTo(9.0), map), map);
+  const CameraPose begin{{0.02, -0.1, 0.1}, {0.0, 0.0, 0.1}, Eigen::Vector3d::UnitZ()};
+  guide.beginAt(begin);
+  const CameraPose pose = guide.advance({}, 0.0, 1.5, kFieldOfView);
+  EXPECT_LT((pose.eye - begin.eye).norm(), 1e-9);
+  EXPECT_LT((pose.focus - begin.focus).norm(), 1e-9);
 }
 
 }  // namespace

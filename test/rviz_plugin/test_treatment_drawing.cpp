@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/visualization/motion_history.h"
+#include "test/rviz_plugin/moved_patient.h"
+
 namespace endovascular_sim::rviz_plugin
 {
 namespace
@@ -29,12 +32,12 @@ TEST(TreatmentDrawing, DrawsBalloonsAndStents)
   message.balloons.push_back(body(0.02, 0.0));
   message.stents.push_back(body(0.02, 1e-4));
   TreatmentDrawing drawing;
-  EXPECT_EQ(drawing.update(message), "");
+  EXPECT_EQ(drawing.update(message, nodes::restingMap()), "");
   EXPECT_FALSE(drawing.balloons().triangles.empty());
   EXPECT_FALSE(drawing.struts().triangles.empty());
   for (const Eigen::Vector3f& position : drawing.struts().positions)
     EXPECT_TRUE(position.allFinite());
-  EXPECT_EQ(drawing.update({}), "");
+  EXPECT_EQ(drawing.update({}, nodes::restingMap()), "");
   EXPECT_TRUE(drawing.balloons().positions.empty() && drawing.struts().positions.empty());
 }
 
@@ -47,7 +50,7 @@ TEST(TreatmentDrawing, DrawsNothingForInvalidBodies)
     TreatmentVisual message;
     message.balloons.push_back(body(0.02, 0.0));
     message.stents.push_back(stent);
-    const std::string result = drawing.update(message);
+    const std::string result = drawing.update(message, nodes::restingMap());
     EXPECT_TRUE(drawing.balloons().positions.empty() && drawing.struts().positions.empty());
     return result;
   };
@@ -61,6 +64,28 @@ TEST(TreatmentDrawing, DrawsNothingForInvalidBodies)
   broken = body(0.02, 1e-4);
   broken.radius.clear();
   EXPECT_EQ(reason(broken), "stent: inconsistent lengths");
+}
+
+TEST(TreatmentDrawing, BodiesOfTheRestingPatientAreDrawnInTheMovedOne)
+{
+  const motion::MotionMap map = movedPatient();
+  TreatmentVisual resting, moved;
+  resting.balloons.push_back(body(0.01, 0.0));
+  resting.stents.push_back(body(0.01, 1e-4));
+  moved = resting;
+  for (TreatmentBody* each : {&moved.balloons[0], &moved.stents[0]})
+    for (geometry_msgs::Point& point : each->axis)
+    {
+      const Eigen::Vector3d place = map.position({point.x, point.y, point.z});
+      point.x = place.x(), point.y = place.y(), point.z = place.z();
+    }
+  TreatmentDrawing drawing, expected, at_rest;
+  EXPECT_EQ(drawing.update(resting, map), "");
+  EXPECT_EQ(expected.update(moved, nodes::restingMap()), "");
+  EXPECT_EQ(at_rest.update(resting, nodes::restingMap()), "");
+  EXPECT_EQ(drawing.balloons().positions, expected.balloons().positions);
+  EXPECT_EQ(drawing.struts().positions, expected.struts().positions);
+  EXPECT_NE(drawing.balloons().positions, at_rest.balloons().positions);
 }
 
 }  // namespace

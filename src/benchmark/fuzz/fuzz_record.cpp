@@ -129,6 +129,7 @@ std::string FuzzRecord::json() const
   const Json json = {{"seed", settings_.seed},
                      {"steps_per_episode", settings_.steps_per_episode},
                      {"coaxial", settings_.coaxial},
+                     {"moving", settings_.moving},
                      {"overrides", settings_.overrides},
                      {"kinds", kinds_},
                      {"good", good()},
@@ -154,8 +155,8 @@ void FuzzRecord::resume(const std::string& text, const std::string& origin)
   {
     const Json json = Json::parse(text);
     if (json.at("seed") != settings_.seed || json.at("steps_per_episode") != settings_.steps_per_episode ||
-        json.at("coaxial") != settings_.coaxial || json.at("overrides") != Json(settings_.overrides) ||
-        json.at("kinds") != Json(kinds_))
+        json.at("coaxial") != settings_.coaxial || json.at("moving") != settings_.moving ||
+        json.at("overrides") != Json(settings_.overrides) || json.at("kinds") != Json(kinds_))
       throw InputError(origin, "",
                        "belongs to another seed, episode length, overrides or list of vessels; give the same "
                        "ones, or another --out");

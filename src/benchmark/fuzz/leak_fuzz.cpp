@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "benchmark/fuzz/fuzz_motion.h"
 #include "benchmark/harness/table.h"
 #include "results/run_result.h"
 #include "rod/kkt/kkt_stepper.h"
@@ -17,13 +19,15 @@ namespace endovascular_sim::benchmark
 namespace
 {
 
-constexpr double kInitialInsertion = 4e-3;  // inserted length at the start [m]
-constexpr double kFastestHand = 0.5;        // largest speed of the hand [m/s]
-constexpr double kFastestTurn = 59.0;       // largest angular speed of the hand [rad/s]
+constexpr double kInitialInsertion = 4e-3;   // inserted length at the start [m]
+constexpr double kFastestHand = 0.5;         // largest speed of the hand [m/s]
+constexpr double kFastestBesideHeart = 0.1;  // the same in a moving vessel [m/s]
+constexpr double kFastestTurn = 59.0;        // largest angular speed of the hand [rad/s]
 constexpr double kLargestTipMoment =
     0.02;  // largest moment that straightens a pre-curved tip [N·m]; the stiff J of peer_wire requires 0.0165
 constexpr double kSuspicious = 50e-6;    // depth in the solver that triggers a check [m]
 constexpr int kCheckInterval = 10;       // steps between checks
+constexpr int kMovedInterval = 20;      // checks between those of the whole wire in the moved mesh
 constexpr int kBruteForceInterval = 10;  // checks between brute-force searches for one node
 constexpr double kDisagreement = 1e-9;   // largest difference of both searches [m]
 
@@ -168,7 +172,11 @@ std::string describe(const Setup& setup, const FuzzVessel& vessel)
 class RandomHand
 {
 public:
-  RandomHand(FuzzRandom& random, double time_step, double most) : random_(random), time_step_(time_step), most_(most) {}
+  /** @param fastest [m/s]  @param most largest insertion [m] */
+  RandomHand(FuzzRandom& random, double time_step, double fastest, double most)
+    : random_(random), time_step_(time_step), fastest_(fastest), most_(most)
+  {
+  }
 
   drive::HandCommand next()
   {
@@ -184,12 +192,13 @@ private:
   {
     left_ = random_.integer(2, 80);
     const bool reverse = random_.chance(0.25);
-    speed_ = reverse ? -speed_ : kFastestHand * std::pow(random_.unit(), 2.0) * (random_.chance(0.7) ? 1.0 : -1.0);
+    speed_ = reverse ? -speed_ : fastest_ * std::pow(random_.unit(), 2.0) * (random_.chance(0.7) ? 1.0 : -1.0);
     turn_ = random_.chance(0.4) ? 0.0 : kFastestTurn * std::pow(random_.between(-1.0, 1.0), 3.0);
   }
 
   FuzzRandom& random_;
   double time_step_;
+  double fastest_;
   double most_;
   int left_ = 0;
   double insertion_ = kInitialInsertion;
@@ -259,6 +268,37 @@ void checkWire(const simulation::Simulation& simulation, double stiffness, WireC
     throw std::logic_error("WireCheck: the box tree and the brute-force search give different distances");
 }
 
+/** Checks the wire in a vessel that moves. */
+void checkMovingWire(const simulation::Simulation& simulation, double stiffness, WireCheck& at_rest,
+                     MovedVesselCheck& moved, FuzzEpisode& episode, std::vector<CheckedNode>& nodes)
+{
+  const motion::MotionMap& map = simulation.motion()->patient().map();
+  insertedWire(simulation, stiffness, nodes);
+  ++episode.checks;
+  std::vector<CheckedNode> axis;
+  for (const CheckedNode& node : nodes)
+    axis.push_back({map.pullBack(node.position), 0.0, 0.0});
+  const WireFinding inside = at_rest.check(axis);
+  episode.finite = inside.finite && std::isfinite(simulation.state().hand_force);
+  episode.escaped = inside.outside;
+  if (!inside.finite || nodes.empty())
+    return;
+  if (episode.checks % kBruteForceInterval == 1)
+  {
+    const Eigen::Vector3d& one = nodes[static_cast<std::size_t>(episode.checks) * 7 % nodes.size()].position;
+    episode.escaped = episode.escaped || moved.bruteSignedDistance(map, one) < 0.0;
+  }
+  if (episode.checks % kMovedInterval != 1 && simulation.surfacePenetration() < 2.0 * kSuspicious)
+    return;
+  const WireFinding finding = moved.check(map, nodes);
+  episode.escaped = episode.escaped || finding.outside;
+  if (finding.depth > episode.depth)
+  {
+    episode.depth = finding.depth;
+    episode.depth_step = episode.steps;
+  }
+}
+
 }  // namespace
 
 FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std::uint64_t number)
@@ -270,13 +310,22 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
   const scene::EntryPose entry = randomEntry(vessel, random, widest, 1.5 * kInitialInsertion);
   session::Session session = sessionOf(vessel, setup, settings, entry);
   const simulation::Simulation& simulation = session.simulation();
+  std::optional<MovedVesselCheck> moved;
+  if (settings.moving)
+  {
+    const simulation::PatientMotion motion = randomMotion(vessel, entry, setup.time_step, random);
+    session.simulation().setMotion(motion);
+    moved.emplace(settings.smooth ? vessel.checked : vessel.vessel->mesh, motion.bounds);
+  }
 
   FuzzEpisode episode;
   episode.number = number;
   episode.vessel = vessel.name;
   episode.description = describe(setup, vessel);
   std::vector<CheckedNode> nodes;
-  std::vector<RandomHand> hands(setup.coaxial ? 2 : 1, RandomHand(random, setup.time_step, setup.length));
+  std::vector<RandomHand> hands(
+      setup.coaxial ? 2 : 1,
+      RandomHand(random, setup.time_step, settings.moving ? kFastestBesideHeart : kFastestHand, setup.length));
   const double grips = setup.force_limit + (setup.coaxial ? setup.outer_limit : 0.0);
   while (episode.steps < settings.steps_per_episode && episode.finite && !episode.escaped)
   {
@@ -292,8 +341,10 @@ FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std:
     for (int k = 0; k < simulation.instruments(); ++k)
       episode.force = std::max(episode.force, std::abs(simulation.hand(k).force));
     episode.over_grips = episode.force / grips;
-    const bool suspicious = simulation.surfacePenetration() > kSuspicious || !report.solved;
-    if (suspicious || episode.steps % kCheckInterval == 0)
+    const bool suspicious = !moved && (simulation.surfacePenetration() > kSuspicious || !report.solved);
+    if (moved && episode.steps % kCheckInterval == 0)
+      checkMovingWire(simulation, setup.stiffness, *vessel.check, *moved, episode, nodes);
+    else if (suspicious || episode.steps % kCheckInterval == 0)
       checkWire(simulation, setup.stiffness, *vessel.check, episode, nodes);
   }
   if (episode.escaped || !episode.finite)

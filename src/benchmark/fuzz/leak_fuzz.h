@@ -16,6 +16,7 @@ struct FuzzSettings
   int steps_per_episode = 400;
   bool smooth = false;                 ///< smooth walls (vessel.wall: smooth) in place of facets
   bool coaxial = false;                ///< a wire in a catheter, each with a hand of its own
+  bool moving = false;                 ///< the vessel moves by 10 mm at 90 beats per minute; hands up to 100 mm/s
   std::vector<std::string> overrides;  ///< overrides `key.path=value` of every scene
 };
 
@@ -53,6 +54,8 @@ constexpr double kFuzzOverGrips = 1.02;
  * are drawn at random. WireCheck checks the whole wire after every tenth step, and after steps with a depth above 50 µm
  * in the solver. A coaxial episode has a catheter over the wire (bore, stiffness and friction at random), whose hand
  * moves by itself.
+ *  In a moving vessel, the check after every tenth step is that of the wire at rest. Every tenth of these compares one
+ *  node with the moved mesh by brute force, and every twentieth checks the whole wire in the moved mesh.
  *  @throws std::logic_error if WireCheck disagrees with a brute-force search over all triangles */
 FuzzEpisode fuzzEpisode(FuzzVessels& vessels, const FuzzSettings& settings, std::uint64_t number);
 

@@ -28,29 +28,73 @@ void ProgressiveProjection::restart(const XRayGeometry& geometry)
   started_ = true;
   pose_ = geometry.pose();
   next_row_ = resolution_.moving == resolution_.at_rest ? refined_.samples : 0;  // nothing to refine
-  image_ = resampled(projection_->project(geometry, resolution_.moving), geometry.pixels());
-  ++revision_;
+  still_ = resampled(projection_->project(geometry, resolution_.moving), geometry.pixels());
+  changes_.clear();
 }
 
-const ArealDensityImage& ProgressiveProjection::frame(const XRayGeometry& geometry)
+/** Brings the image of the resting patient up to date.
+ *  @return true if it has changed */
+bool ProgressiveProjection::updateStill(const XRayGeometry& geometry)
 {
   if (!started_ || geometry.pose() != pose_)
   {
     restart(geometry);
-    return image_;
+    return true;
   }
   if (isFinal())
-    return image_;
+    return false;
   const int rows = std::max(1, resolution_.rays_per_frame / refined_.samples);
   const int end = std::min(next_row_ + rows, refined_.samples);
   projection_->projectRows(geometry, next_row_, end, refined_);
   next_row_ = end;
   if (isFinal())
+    still_ = resampled(refined_, geometry.pixels());
+  return isFinal();
+}
+
+void ProgressiveProjection::setMotion(const BodyMotion& motion)
+{
+  if (motion == motion_)
+    return;
+  motion_ = motion;
+  motion_is_new_ = true;
+  if (motion.resting() || (moved_tissue_ && sameRegion(moved_tissue_->frame(), motion.map().frame())))
+    return;
+  moved_tissue_.emplace(*projection_, motion.map().frame());
+  changes_.clear();
+}
+
+/** Change by the present motion: that of an earlier phase, or a new one. */
+const std::vector<float>& ProgressiveProjection::change(const XRayGeometry& geometry)
+{
+  const bool exact = resolution_.motion == MotionSampling::kExact;
+  if (!exact)
+    if (const std::vector<float>* earlier = changes_.find(motion_))
+    {
+      ++reused_frames_;
+      return *earlier;
+    }
+  change_ = moved_tissue_->change(geometry, resolution_.moving, motion_, resolution_.motion);
+  if (!exact)
+    changes_.put(motion_, change_);
+  return change_;
+}
+
+const ArealDensityImage& ProgressiveProjection::frame(const XRayGeometry& geometry)
+{
+  const bool still_is_new = updateStill(geometry);
+  if (still_is_new || motion_is_new_)
   {
-    image_ = resampled(refined_, geometry.pixels());
     ++revision_;
+    motion_is_new_ = false;
+    if (!motion_.resting())
+    {
+      ++moved_frames_;
+      image_ = still_;
+      addResampled(change(geometry), resolution_.moving, geometry.pixels(), image_.tissue);
+    }
   }
-  return image_;
+  return motion_.resting() ? still_ : image_;
 }
 
 }  // namespace endovascular_sim::fluoroscopy

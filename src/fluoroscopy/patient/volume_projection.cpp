@@ -6,24 +6,12 @@
 #include <utility>
 
 #include "common/error.h"
+#include "fluoroscopy/patient/lattice_ray.h"
 
 namespace endovascular_sim::fluoroscopy
 {
 namespace
 {
-
-constexpr double kMaxInclination = 0.5;  // smallest share of the sampling axis in a ray's direction (cosine)
-constexpr double kInside = 1e-6;         // margin of positions against rounding [voxel]
-
-/** Part of a ray in the coordinates of the lattice [voxel]. */
-struct Ray
-{
-  Eigen::Vector3d origin;
-  Eigen::Vector3d direction;  ///< per unit of depth
-  double begin = 0.0;         ///< depth at the entry into the volume
-  double end = 0.0;
-  double length = 0.0;  ///< length per unit of depth [m]
-};
 
 /** Sums of steps times 65536. */
 struct Sum
@@ -48,31 +36,6 @@ Layout layoutFor(int main_axis, const std::array<std::ptrdiff_t, 3>& stride)
     layout.stride[static_cast<std::size_t>(i)] = stride[static_cast<std::size_t>((main_axis + i) % 3)];
   }
   return layout;
-}
-
-/** Limits the ray to a box.
- *  @return false if nothing remains */
-bool clip(Ray& ray, const Eigen::AlignedBox3d& box)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double from = box.min()[axis] - ray.origin[axis], to = box.max()[axis] - ray.origin[axis];
-    const double d = ray.direction[axis];
-    if (d == 0.0)
-    {
-      if (from > 0.0 || to < 0.0)
-        return false;
-      continue;
-    }
-    ray.begin = std::max(ray.begin, std::min(from / d, to / d));
-    ray.end = std::min(ray.end, std::max(from / d, to / d));
-  }
-  return ray.begin < ray.end;
-}
-
-std::int64_t fixedPoint(double value)
-{
-  return std::llround(value * 4294967296.0);
 }
 
 /** Both components of a voxel in the halves of a word. */
@@ -114,7 +77,7 @@ Sum sumOfPlanes(const std::uint16_t* voxels, const Layout& layout, std::int64_t 
 
 /** Integrals of tissue and bone steps along the main axis, times 65536 [voxel]. */
 std::pair<double, double> integrate(const std::uint16_t* voxels, const Eigen::Vector3i& size, const Layout& layout,
-                                    const Ray& ray)
+                                    const LatticeRay& ray)
 {
   const int main = layout.axis[0];
   const double slope = ray.direction[main];
@@ -128,8 +91,7 @@ std::pair<double, double> integrate(const std::uint16_t* voxels, const Eigen::Ve
   const auto at = [&](double plane, std::size_t axis)
   {
     const int a = layout.axis[axis];
-    const double position = ray.origin[a] + (plane - ray.origin[main]) / slope * ray.direction[a];
-    return fixedPoint(std::clamp(position, 0.0, size[a] - 1 - kInside));
+    return fixedPoint(std::clamp(ray.at(plane, a), 0.0, size[a] - 1 - kInsideLattice));
   };
   const auto value = [&](std::int64_t plane)
   {
@@ -152,25 +114,6 @@ std::pair<double, double> integrate(const std::uint16_t* voxels, const Eigen::Ve
                      dv = (at(static_cast<double>(last), 2) - v) / planes;
   const Sum sum = sumOfPlanes(voxels, layout, first, last, u, v, du, dv);
   return {static_cast<double>(sum.tissue) + a.first + b.first, static_cast<double>(sum.bone) + a.second + b.second};
-}
-
-int largestAxis(const Eigen::Vector3d& direction)
-{
-  Eigen::Index axis = 0;
-  direction.cwiseAbs().maxCoeff(&axis);
-  return static_cast<int>(axis);
-}
-
-/** Strides of a storage in which the axis nearest to the patient's z runs fastest. */
-std::array<std::ptrdiff_t, 3> stridesFor(const image::VolumeGrid& grid)
-{
-  const int fastest = largestAxis(grid.axes.row(2).transpose());
-  const int second = (fastest + 1) % 3, third = (fastest + 2) % 3;
-  std::array<std::ptrdiff_t, 3> stride{};
-  stride[static_cast<std::size_t>(fastest)] = 1;
-  stride[static_cast<std::size_t>(second)] = grid.size[fastest];
-  stride[static_cast<std::size_t>(third)] = static_cast<std::ptrdiff_t>(grid.size[fastest]) * grid.size[second];
-  return stride;
 }
 
 /** Box of all voxels but those of air, widened by one voxel [voxel]. */
@@ -227,27 +170,19 @@ void VolumeProjection::projectRows(const XRayGeometry& geometry, int begin, int 
 {
   if (occupied_.isEmpty())
     return;
-  const image::VolumeGrid& grid = grid_;
-  const Eigen::Matrix3d from_optical = (grid.axes.transpose() * geometry.axes());
-  const Eigen::Vector3d origin = grid.index(geometry.source());
-  const int central = largestAxis(from_optical.col(2).cwiseQuotient(grid.spacing));
-  const double pixels_per_sample = static_cast<double>(geometry.pixels()) / image.samples;
+  const LatticeRays rays(grid_, occupied_, geometry, image.samples);
+  LatticeRay ray;
   for (int column = 0; column < image.samples; ++column)
     for (int row = begin; row < end; ++row)
     {
-      const Eigen::Vector3d optical =
-          geometry.ray((column + 0.5) * pixels_per_sample - 0.5, (row + 0.5) * pixels_per_sample - 0.5);
-      Ray ray{origin, (from_optical * optical).cwiseQuotient(grid.spacing), 0.0, geometry.pose().source_to_detector,
-              optical.norm()};
       const auto at =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(column);
       image.tissue[at] = image.bone[at] = 0.0F;
-      if (!clip(ray, occupied_))
+      if (!rays.make(row, column, ray))
         continue;
-      const bool inclined = std::abs(ray.direction[central]) < kMaxInclination * ray.direction.norm();
-      const Layout layout = layoutFor(inclined ? largestAxis(ray.direction) : central, stride_);
-      const auto [tissue, bone] = integrate(voxels_.data(), grid.size, layout, ray);
-      const double scale = ray.length / std::abs(ray.direction[layout.axis[0]]) / 65536.0;
+      const Layout layout = layoutFor(ray.main, stride_);
+      const auto [tissue, bone] = integrate(voxels_.data(), grid_.size, layout, ray);
+      const double scale = ray.length / std::abs(ray.direction[ray.main]) / 65536.0;
       image.tissue[at] = static_cast<float>(patient::DensityVolume::kTissueStep * scale * tissue);
       image.bone[at] = static_cast<float>(patient::DensityVolume::kBoneStep * scale * bone);
     }

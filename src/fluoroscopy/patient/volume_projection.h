@@ -33,6 +33,15 @@ public:
 
   const image::VolumeGrid& grid() const { return grid_; }
 
+  /** Voxels as DensityVolume holds them, in an order of their own. */
+  const std::vector<std::uint16_t>& voxels() const { return voxels_; }
+
+  /** Distances of neighbours along the axes of the grid in voxels(). */
+  const std::array<std::ptrdiff_t, 3>& strides() const { return stride_; }
+
+  /** Box of all centres but those of air, and of their neighbours [voxel]. */
+  const Eigen::AlignedBox3d& occupied() const { return occupied_; }
+
   /** Projection with @p samples × @p samples rays at the centres of equal squares of the detector.
    *  @throws InputError for samples outside of 1 to 4096 */
   ArealDensityImage project(const XRayGeometry& geometry, int samples) const;

@@ -20,4 +20,9 @@ ArealDensityImage emptyImage(int samples);
  * image. */
 ArealDensityImage resampled(const ArealDensityImage& image, int pixels);
 
+/** Adds a signed change of areal densities, interpolated in the same way; no density falls below zero.
+ *  @param change samples × samples numbers [kg/m²]
+ *  @param densities pixels × pixels numbers [kg/m²] */
+void addResampled(const std::vector<float>& change, int samples, int pixels, std::vector<float>& densities);
+
 }  // namespace endovascular_sim::fluoroscopy

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fluoroscopy/motion/body_motion.h"
 #include "fluoroscopy/projection/areal_density_image.h"
 #include "fluoroscopy/projection/x_ray_geometry.h"
 
@@ -15,6 +16,9 @@ public:
   /** Areal densities along each pixel's central ray for the next frame at this geometry, with geometry.pixels() samples
    * per side. Valid until the next call. */
   virtual const ArealDensityImage& frame(const XRayGeometry& geometry) = 0;
+
+  /** Moves heart and lungs, from the next frame on. A phantom does not move. */
+  virtual void setMotion(const BodyMotion& /*motion*/) {}
 
   /** Number of changes of the image; equal numbers mean equal images, so that what follows from them can be kept. */
   virtual int revision() const = 0;

@@ -33,4 +33,16 @@ std::vector<XRayWire> strutWires(const std::vector<std::vector<Eigen::Vector3d>>
   return wires;
 }
 
+void moveWires(const motion::MotionMap& map, std::vector<XRayWire>& wires)
+{
+  if (map.resting())
+    return;
+  std::vector<Eigen::Vector3d> moved;
+  for (XRayWire& wire : wires)
+  {
+    map.positions(wire.nodes, moved);
+    wire.nodes = moved;
+  }
+}
+
 }  // namespace endovascular_sim::fluoroscopy

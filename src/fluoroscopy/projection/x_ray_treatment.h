@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "fluoroscopy/projection/wire.h"
+#include "motion/map/motion_map.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -22,5 +23,8 @@ XRayWire balloonWire(const std::vector<Eigen::Vector3d>& axis, const std::vector
  *  @param metal density of the metal minus that of the displaced medium */
 std::vector<XRayWire> strutWires(const std::vector<std::vector<Eigen::Vector3d>>& lines, double thickness,
                                  const DeviceDensity& metal);
+
+/** Moves the nodes of wires from the resting vessel to the moved one. Radii stay. */
+void moveWires(const motion::MotionMap& map, std::vector<XRayWire>& wires);
 
 }  // namespace endovascular_sim::fluoroscopy

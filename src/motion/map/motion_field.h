@@ -37,6 +37,16 @@ struct MotionField
   Eigen::Matrix3d linear = Eigen::Matrix3d::Zero();  ///< [1]
   double twist = 0.0;                                ///< rotation about the axis per length of it [rad/m]
 
+  MotionField operator+(const MotionField& other) const
+  {
+    return {shift + other.shift, linear + other.linear, twist + other.twist};
+  }
+  MotionField operator-(const MotionField& other) const
+  {
+    return {shift - other.shift, linear - other.linear, twist - other.twist};
+  }
+  MotionField operator*(double factor) const { return {factor * shift, factor * linear, factor * twist}; }
+
   bool isZero() const { return twist == 0.0 && (shift.array() == 0.0).all() && (linear.array() == 0.0).all(); }
 };
 

@@ -1,5 +1,7 @@
 #include "motion/map/motion_map.h"
 
+#include <cmath>
+
 #include <Eigen/LU>
 
 #include "common/wide_vectors.h"
@@ -37,18 +39,90 @@ EVS_WIDE_VECTORS void solve(const FieldTerms& terms, Packet& packet)
     packet.rest[i] = x[i];
 }
 
-/** Solves the points of a packet, which becomes empty. */
-void flush(const FieldTerms& terms, Packet& packet, std::vector<Vector3d>& rest)
+/** Squares of |∇φ − 1| at the places of a packet. */
+EVS_WIDE_VECTORS void measure(const FieldTerms& terms, const Packet& packet, Wide& square)
+{
+  FieldPoint<Wide> at;
+  evaluate(terms, packet.rest, at);
+  Wide gradient[3][3];
+  differentiate(terms, at, gradient);
+  square = at.weight - at.weight;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+    {
+      const Wide strain = i == j ? gradient[i][j] - 1.0 : gradient[i][j];
+      square += strain * strain;
+    }
+}
+
+/** Motion of material at the places of a packet.
+ *  @param now field of the present map
+ *  @param change of the field
+ *  @param turn half the curl of that motion in the moved patient */
+EVS_WIDE_VECTORS void moveMaterial(const FieldTerms& now, const FieldTerms& change, const Packet& packet,
+                                   Wide (&displacement)[3], Wide (&turn)[3])
+{
+  FieldPoint<Wide> at;
+  evaluate(now, packet.rest, at);
+  Wide g[3][3], d[3][3], cofactor[3][3];
+  differentiate(now, at, g);
+  evaluate(change, packet.rest, at);
+  differentiate(change, at, d);
+  for (int i = 0; i < 3; ++i)
+  {
+    displacement[i] = at.weight * at.value[i];
+    d[i][i] = d[i][i] - 1.0;
+  }
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      cofactor[i][j] = g[(i + 1) % 3][(j + 1) % 3] * g[(i + 2) % 3][(j + 2) % 3] -
+                       g[(i + 1) % 3][(j + 2) % 3] * g[(i + 2) % 3][(j + 1) % 3];
+  const Wide half = 0.5 / (g[0][0] * cofactor[0][0] + g[0][1] * cofactor[0][1] + g[0][2] * cofactor[0][2]);
+  Wide change_of[3][3];  // d times the adjugate of g
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      change_of[i][j] = d[i][0] * cofactor[j][0] + d[i][1] * cofactor[j][1] + d[i][2] * cofactor[j][2];
+  for (int i = 0; i < 3; ++i)
+    turn[i] = half * (change_of[(i + 2) % 3][(i + 1) % 3] - change_of[(i + 1) % 3][(i + 2) % 3]);
+}
+
+/** Calls act(packet) with the points of a packet, its last lanes filled; the packet becomes empty. */
+template <typename Act>
+void flush(Packet& packet, Wide (&points)[3], const Act& act)
 {
   if (packet.size == 0)
     return;
   for (int lane = packet.size; lane < kLanes; ++lane)
-    for (Wide& target : packet.target)
-      target[lane] = target[0];
-  solve(terms, packet);
-  for (int lane = 0; lane < packet.size; ++lane)
-    rest[packet.index[lane]] = Vector3d(packet.rest[0][lane], packet.rest[1][lane], packet.rest[2][lane]);
+    for (Wide& point : points)
+      point[lane] = point[0];
+  act(packet);
   packet.size = 0;
+}
+
+Vector3d laneOf(const Wide (&wide)[3], int lane)
+{
+  return {wide[0][lane], wide[1][lane], wide[2][lane]};
+}
+
+/** Calls act(packet) for all points from the first one on that are not skipped.
+ *  @param member array of the packet that receives the points */
+template <typename Skip, typename Act>
+void forPackets(const std::vector<Vector3d>& points, std::size_t first, Wide (Packet::*member)[3], const Skip& skip,
+                const Act& act)
+{
+  Packet packet;
+  Wide(&wide)[3] = packet.*member;
+  for (std::size_t k = first; k < points.size(); ++k)
+  {
+    if (skip(points[k]))
+      continue;
+    for (int i = 0; i < 3; ++i)
+      wide[i][packet.size] = points[k][i];
+    packet.index[packet.size++] = k;
+    if (packet.size == kLanes)
+      flush(packet, wide, act);
+  }
+  flush(packet, wide, act);
 }
 
 void evaluateAt(const FieldTerms& terms, const Vector3d& point, FieldPoint<double>& at)
@@ -131,18 +205,68 @@ void MotionMap::pullBack(const std::vector<Vector3d>& moved, std::vector<Vector3
   if (resting_)
     return;
   const FieldTerms terms(frame_, field_);
-  Packet packet;
-  for (std::size_t k = 0; k < moved.size(); ++k)
-  {
-    if (outside(moved[k]))
-      continue;
-    for (int i = 0; i < 3; ++i)
-      packet.target[i][packet.size] = moved[k][i];
-    packet.index[packet.size++] = k;
-    if (packet.size == kLanes)
-      flush(terms, packet, rest);
-  }
-  flush(terms, packet, rest);
+  forPackets(
+      moved, 0, &Packet::target, [this](const Vector3d& point) { return outside(point); },
+      [&](Packet& packet)
+      {
+        solve(terms, packet);
+        for (int lane = 0; lane < packet.size; ++lane)
+          rest[packet.index[lane]] = laneOf(packet.rest, lane);
+      });
+}
+
+void MotionMap::pullBack(const std::vector<Vector3d>& moved, std::vector<Vector3d>& rest,
+                         std::vector<double>& deformation) const
+{
+  rest = moved;
+  deformation.assign(moved.size(), 0.0);
+  if (resting_)
+    return;
+  const FieldTerms terms(frame_, field_);
+  forPackets(
+      moved, 0, &Packet::target, [this](const Vector3d& point) { return outside(point); },
+      [&](Packet& packet)
+      {
+        solve(terms, packet);
+        Wide square;
+        measure(terms, packet, square);
+        for (int lane = 0; lane < packet.size; ++lane)
+        {
+          rest[packet.index[lane]] = laneOf(packet.rest, lane);
+          deformation[packet.index[lane]] = std::sqrt(square[lane]);
+        }
+      });
+}
+
+MotionMap MotionMap::between(const MotionMap& from, const MotionMap& to, double share)
+{
+  if (share == 0.0 || share == 1.0)
+    return share == 0.0 ? from : to;
+  const auto mix = [share](const MotionField& a, const MotionField& b) { return a + (b - a) * share; };
+  return {from.frame_, mix(from.field_, to.field_), mix(from.rate_, to.rate_)};
+}
+
+void MotionMap::motionTo(const MotionMap& other, const std::vector<Vector3d>& rest, std::size_t first,
+                         std::vector<Vector3d>& displacement, std::vector<Vector3d>& turn) const
+{
+  displacement.assign(rest.size(), Vector3d::Zero());
+  turn.assign(rest.size(), Vector3d::Zero());
+  const MotionField change = other.field_ - field_;
+  if (change.isZero())
+    return;
+  const FieldTerms now(frame_, field_), then(frame_, change);
+  forPackets(
+      rest, first, &Packet::rest, [this](const Vector3d& point) { return outside(point); },
+      [&](Packet& packet)
+      {
+        Wide moved[3], turned[3];
+        moveMaterial(now, then, packet, moved, turned);
+        for (int lane = 0; lane < packet.size; ++lane)
+        {
+          displacement[packet.index[lane]] = laneOf(moved, lane);
+          turn[packet.index[lane]] = laneOf(turned, lane);
+        }
+      });
 }
 
 MotionMap::Feature MotionMap::pushForward(const Vector3d& point, const Vector3d& normal) const

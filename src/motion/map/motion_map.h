@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,6 +39,22 @@ public:
   void positions(const std::vector<Eigen::Vector3d>& rest, std::vector<Eigen::Vector3d>& moved) const;
   /** Places at rest of many points, with the bits of the single ones. */
   void pullBack(const std::vector<Eigen::Vector3d>& moved, std::vector<Eigen::Vector3d>& rest) const;
+
+  /** The same, with the local deformation |∇φ − 1| at each place, Frobenius norm [1]: no length is compressed by more.
+   */
+  void pullBack(const std::vector<Eigen::Vector3d>& moved, std::vector<Eigen::Vector3d>& rest,
+                std::vector<double>& deformation) const;
+
+  /** Map between two of one frame, linear in the share.
+   *  @param share 0: @p from, bit for bit; 1: @p to, bit for bit */
+  static MotionMap between(const MotionMap& from, const MotionMap& to, double share);
+
+  /** Motion of material from this map to another one of the same frame.
+   *  @param rest places at rest [m]; those before @p first are skipped, and get zeros
+   *  @param displacement φ'(X) − φ(X) [m]
+   *  @param turn rotation vector of the material, of first order in that motion [rad] */
+  void motionTo(const MotionMap& other, const std::vector<Eigen::Vector3d>& rest, std::size_t first,
+                std::vector<Eigen::Vector3d>& displacement, std::vector<Eigen::Vector3d>& turn) const;
 
   /** Closest feature of the resting wall in the moved patient. */
   struct Feature

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <ros/package.h>
@@ -9,6 +10,7 @@
 #include "common/error.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/image_conversions.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/diagnostics_publication.h"
@@ -21,6 +23,7 @@ namespace
 {
 
 constexpr double kDiagnosticsPeriod = 1.0;  ///< [s]
+constexpr int kMotionQueue = 10;            ///< of motion/state, which arrives with every state for display
 constexpr int kPoseQueue = 100;             ///< of /tf, as that of tf2_ros
 constexpr double kWarningPeriod = 1.0;      ///< between two warnings of the same place [s]
 constexpr double kRestPeriod = 0.5;  ///< of the pose on /tf while neither the C-arm moves nor frames are drawn [s]
@@ -57,6 +60,7 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
     room_(scene, materialLibrary(parameters)),
     gantry_time_(ros::SteadyTime::now()),
     request_(std::move(request)),
+    frames_(1.0 / scene.fluoroscopy->rate),
     radiograph_{node.advertise<sensor_msgs::Image>(names::kFluoroscopyRaw, 2),
                 node.advertise<sensor_msgs::Image>(names::kFluoroscopyImage, 2),
                 node.advertise<sensor_msgs::CameraInfo>(names::kFluoroscopyCameraInfo, 2)},
@@ -69,6 +73,8 @@ FluoroscopyNode::FluoroscopyNode(ros::NodeHandle node, const ros::NodeHandle& pa
   if (room_.awaitsPatient())
     centreline_subscriber_ = subscribeGuarded<VesselCentreline>(
         node, names::kVesselCentreline, 1, [this](const VesselCentreline& message) { receiveCentreline(message); });
+  motion_subscriber_ = subscribeGuarded<MotionState>(node, names::kMotionState, kMotionQueue,
+                                                     [this](const MotionState& message) { receiveMotion(message); });
   rod_subscriber_ = subscribeGuarded<RodStateVisual>(node, names::kRodStateVisual, 1,
                                                      [this](const RodStateVisual& message) { receiveRod(message); });
   treatment_subscriber_ = subscribeGuarded<TreatmentVisual>(
@@ -148,13 +154,25 @@ void FluoroscopyNode::receiveRod(const RodStateVisual& message)
         std::vector<Eigen::Vector3d> nodes;
         for (const geometry_msgs::Point& node : message.nodes)
           nodes.push_back(fromMessage(node));
-        room_.setWires(toXRayWires(message, room_.system().instruments(), room_.system().fluids()), nodes);
+        room_.setWires(toXRayWires(message, room_.system().instruments(), room_.system().fluids()), nodes,
+                       message.step);
       });
 }
 
 void FluoroscopyNode::receiveTreatment(const TreatmentVisual& message)
 {
   processInput([&] { room_.setTreatment(toXRayWires(message, room_.system().filling(), room_.system().metal())); });
+}
+
+void FluoroscopyNode::receiveMotion(const MotionState& message)
+{
+  processInput(
+      [&]
+      {
+        if (!std::isfinite(message.diaphragm))
+          throw InputError(names::kMotionState, "diaphragm", "must be finite");
+        room_.setMotion(message.step, {fromMessage(message), message.diaphragm});
+      });
 }
 
 void FluoroscopyNode::receiveCommand(const CArm& message)
@@ -212,7 +230,7 @@ bool FluoroscopyNode::hasSubscribers() const
   return radiograph_.hasSubscribers() || source_view_.hasSubscribers();
 }
 
-void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
+void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& event)
 {
   const fluoroscopy::CArmPose before = room_.geometry().pose();
   processInput([this] { advanceGantry(); });
@@ -221,8 +239,15 @@ void FluoroscopyNode::onFrame(const ros::SteadyTimerEvent& /*event*/)
   const bool is_due = (ros::SteadyTime::now() - broadcast_time_).toSec() >= kRestPeriod;
   if (draws || is_due || room_.geometry().pose() != before)
     broadcastPose(stamp);  // at frame rate too, so that an image need not wait for its pose
-  if (draws)
-    processInput([this, &stamp] { publishFrame(stamp); });
+  if (!draws)
+    frames_.pause();
+  else
+    processInput(
+        [&]
+        {
+          publishFrame(stamp);
+          frames_.draw(event.current_real.toSec());
+        });
 }
 
 void FluoroscopyNode::publishFrame(const ros::Time& stamp)
@@ -231,7 +256,6 @@ void FluoroscopyNode::publishFrame(const ros::Time& stamp)
   const bool display = radiograph_.image.getNumSubscribers() + source_view_.image.getNumSubscribers() > 0;
   const fluoroscopy::Frame& frame = room_.render(display);
   render_times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  ++frames_;
   air_kerma_rate_ = frame.reference_kerma * rate_;
   dose_limited_ = frame.dose_limited;
   std_msgs::Header header;
@@ -276,7 +300,8 @@ void FluoroscopyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(DiagnosticStatus::WARN, new_error_);
   else
     status.summary(DiagnosticStatus::OK, hasSubscribers() ? "rendering" : "idle: no subscriber");
-  status.add("frames rendered", frames_);
+  status.add("frames rendered", frames_.drawn());
+  status.add("frames left out", frames_.leftOut());
   status.add("frames per second", static_cast<double>(render_times_.size()) / kDiagnosticsPeriod);
   status.add("median render time [ms]", 1e3 * median);
   status.add("air kerma rate at the reference point [mGy/min]", 60e3 * air_kerma_rate_);

@@ -9,10 +9,12 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "endovascular_sim/CArm.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "nodes/fluoroscopy/frame_counter.h"
 #include "nodes/fluoroscopy/x_ray_room.h"
 #include "nodes/runtime/node_program.h"
 #include "nodes/runtime/real_time.h"
@@ -40,6 +42,7 @@ private:
   void loadPatient();
   void receiveRod(const RodStateVisual& message);
   void receiveTreatment(const TreatmentVisual& message);
+  void receiveMotion(const MotionState& message);
   void receiveCommand(const CArm& message);
   /** Takes over the pose of the C-arm from a recording. */
   void receivePoses(const tf2_msgs::TFMessage& message);
@@ -66,7 +69,7 @@ private:
 
   SchedulingRequest request_;
   SchedulingGrant grant_;
-  std::size_t frames_ = 0;
+  FrameCounter frames_;
   double air_kerma_rate_ = 0.0;  ///< of the last frame at the reference point [Gy/s]
   bool dose_limited_ = false;
   std::vector<double> render_times_;    ///< render times since the last diagnostics [s]
@@ -87,8 +90,8 @@ private:
   tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   diagnostic_updater::Updater updater_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber mesh_subscriber_, centreline_subscriber_, rod_subscriber_, treatment_subscriber_, c_arm_subscriber_,
-      pose_subscriber_;
+  ros::Subscriber mesh_subscriber_, centreline_subscriber_, motion_subscriber_, rod_subscriber_, treatment_subscriber_,
+      c_arm_subscriber_, pose_subscriber_;
   ros::SteadyTimer frame_timer_, diagnostics_timer_;
 };
 

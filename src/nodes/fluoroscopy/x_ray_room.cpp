@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.h"
+#include "fluoroscopy/projection/x_ray_treatment.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::nodes
@@ -35,9 +36,11 @@ void XRayRoom::setVessel(geometry::TriangleMesh mesh)
   has_mesh_ = true;
 }
 
-void XRayRoom::setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes)
+void XRayRoom::setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes,
+                        std::uint64_t step)
 {
   wires_ = std::move(wires);
+  step_ = step;
   if (nodes.empty())
     return;
   tip_ = nodes.back();
@@ -117,8 +120,11 @@ void XRayRoom::applyPose()
 
 const fluoroscopy::Frame& XRayRoom::render(bool display)
 {
-  shown_ = wires_;
-  shown_.insert(shown_.end(), treatment_.begin(), treatment_.end());
+  const fluoroscopy::BodyMotion& motion = motions_.at(step_);
+  fluoroscope_.setMotion(motion);
+  shown_ = treatment_;
+  fluoroscopy::moveWires(motion.map(), shown_);
+  shown_.insert(shown_.begin(), wires_.begin(), wires_.end());
   return fluoroscope_.render(shown_, display);
 }
 

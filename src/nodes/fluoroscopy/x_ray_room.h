@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 
 #include "fluoroscopy/gantry/gantry.h"
 #include "fluoroscopy/patient/progressive_projection.h"
+#include "nodes/fluoroscopy/motion_history.h"
 #include "simulation/fluoroscopy_system.h"
 #include "vessel/model/vessel.h"
 
@@ -24,7 +26,7 @@ public:
 
   // ------------------------------------------------------------------------------------------------ what is imaged
 
-  /** Sets the wall. Without an isocentre, its middle becomes the isocentre.
+  /** Sets the wall at rest. Without an isocentre, its middle becomes the isocentre.
    *  @throws InputError when the C-arm cannot be there */
   void setVessel(geometry::TriangleMesh mesh);
 
@@ -33,10 +35,15 @@ public:
 
   /** Sets the instruments.
    *  @param nodes of the centreline, from proximal to distal [m]
+   *  @param step of the simulation; the patient is drawn in the motion of this step
    *  @throws InputError as setVessel(); the instruments are set then, too */
-  void setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes);
+  void setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes,
+                std::uint64_t step = 0);
 
-  /** Sets balloons and stents. */
+  /** Takes the motion of the patient in a step. */
+  void setMotion(std::uint64_t step, const fluoroscopy::BodyMotion& motion) { motions_.add(step, motion); }
+
+  /** Sets balloons and stents, with the vessel at rest. */
   void setTreatment(std::vector<fluoroscopy::XRayWire> treatment) { treatment_ = std::move(treatment); }
 
   bool awaitsVessel() const { return scene_.vessel && !has_mesh_; }  ///< the mesh has not arrived
@@ -88,6 +95,8 @@ private:
   fluoroscopy::Fluoroscope& fluoroscope_;
   fluoroscopy::Gantry gantry_;
   std::vector<fluoroscopy::XRayWire> wires_, treatment_, shown_;
+  std::uint64_t step_ = 0;  ///< of wires_
+  MotionHistory motions_;
   std::optional<Eigen::Vector3d> tip_;  ///< tip of the instrument that reaches farthest [m]
   bool has_mesh_ = false;
   vessel::Vessel vessel_;  ///< vessel at rest, about which the patient is placed; empty afterwards

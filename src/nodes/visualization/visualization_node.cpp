@@ -26,6 +26,7 @@ namespace
 {
 
 constexpr double kMarkerRate = 30.0;          ///< [Hz]; rviz stutters with more
+constexpr double kMovedRate = 15.0;           ///< of the moved vessel [Hz]
 constexpr int kTubeSides = 8;                 ///< corners of the drawn cross-section of the wire
 constexpr std::size_t kTipPathPoints = 2000;  ///< capacity of the path; the oldest points are dropped
 constexpr double kTipPathSpacing = 0.25e-3;   ///< distance between two points of the path [m]
@@ -77,6 +78,15 @@ double fullScale(const ros::NodeHandle& parameters, const std::string& name, con
   return parameters.param(name, 0.0) == 0.0 ? 0.0 : numericParameter(parameters, name, 0.0, quantity);
 }
 
+/** Body of the resting patient in the moved one; its radii do not change. */
+intervention::RoundBody moved(intervention::RoundBody body, const motion::MotionMap& map)
+{
+  std::vector<Eigen::Vector3d> axis;
+  map.positions(body.axis, axis);
+  body.axis.swap(axis);
+  return body;
+}
+
 /** Publishes a marker; an empty one as a deletion, since rviz rejects empty lists. */
 void publishOrDelete(visualization_msgs::Marker& marker, const ros::Publisher& publisher)
 {
@@ -88,7 +98,8 @@ void publishOrDelete(visualization_msgs::Marker& marker, const ros::Publisher& p
 }  // namespace
 
 VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle& parameters)
-  : full_scale_(fullScale(parameters, "force_full_scale", quantities::kWallForce)),
+  : node_(node),
+    full_scale_(fullScale(parameters, "force_full_scale", quantities::kWallForce)),
     radius_scale_(numericParameter(parameters, "radius_scale", 1.5, quantities::kScale)),
     heat_of_(parameters.param<std::string>("heat_of", "peak")),
     heat_full_scale_(fullScale(parameters, "heat_full_scale", quantities::kHeatScale)),
@@ -114,6 +125,8 @@ VisualizationNode::VisualizationNode(ros::NodeHandle node, const ros::NodeHandle
       node, names::kTreatmentVisual, 2, [this](const TreatmentVisual& message) { receiveTreatment(message); });
   player_subscriber_ = subscribeGuarded<PlayerState>(node, names::kPlayerState, 1,
                                                      [this](const PlayerState& player) { receivePlayer(player); });
+  motion_subscriber_ = subscribeGuarded<MotionState>(node, names::kMotionState, MotionHistory::kCapacity,
+                                                     [this](const MotionState& message) { receiveMotion(message); });
   force_map_subscriber_ = subscribeGuarded<ContactForceMap>(
       node, names::kContactForceMap, 1, [this](const ContactForceMapConstPtr& map) { receiveForceMap(map); });
 }
@@ -152,7 +165,7 @@ void VisualizationNode::drawWire(const RodStateVisual& state)
   // rviz rejects empty triangle lists: no marker before the first edge.
   if (!tube.points.empty())
     wire_publisher_.publish(tube);
-  drawTipPath(state.header, axis.points.back());
+  followTip(state.header, motions_.nearest(state.step).pullBack(axis.points.back()));
 }
 
 void VisualizationNode::receivePlayer(const PlayerState& player)
@@ -199,13 +212,18 @@ void VisualizationNode::drawLegend(const std_msgs::Header& header)
   legend_publisher_.publish(legend);
 }
 
-void VisualizationNode::drawTipPath(const std_msgs::Header& header, const Eigen::Vector3d& tip)
+void VisualizationNode::followTip(const std_msgs::Header& header, const Eigen::Vector3d& tip)
 {
-  if (!path_.empty() && (fromMessage(path_.back()) - tip).norm() < kTipPathSpacing)
+  if (!path_.empty() && (path_.back() - tip).norm() < kTipPathSpacing)
     return;
-  path_.push_back(toPoint(tip));
+  path_.push_back(tip);
   if (path_.size() > kTipPathPoints)
     path_.pop_front();
+  drawTipPath(header);
+}
+
+void VisualizationNode::drawTipPath(const std_msgs::Header& header)
+{
   if (path_.size() < 2)
     return;
   visualization_msgs::Marker line = marker(header, "tip_path", visualization_msgs::Marker::LINE_STRIP);
@@ -214,13 +232,15 @@ void VisualizationNode::drawTipPath(const std_msgs::Header& header, const Eigen:
   line.color.g = 0.65F;
   line.color.b = 1.0F;
   line.color.a = 0.8F;
-  line.points.assign(path_.begin(), path_.end());
+  for (const Eigen::Vector3d& point : path_)
+    line.points.push_back(toPoint(map_.position(point)));
   tip_path_publisher_.publish(line);
 }
 
 void VisualizationNode::receiveVessel(const VesselMesh& vessel)
 {
-  heat_ = std::make_unique<visualization::WallHeatMap>(fromMessage(vessel), kHeatRadius, kHeatInset);
+  wall_ = fromMessage(vessel);
+  heat_ = std::make_unique<visualization::WallHeatMap>(wall_, kHeatRadius, kHeatInset);
   if (vessel.version == 1 || vessel_hash_ == 0)
     vessel_hash_ = vessel.content_hash;  // maps contain the hash of the initial wall
   geometry_msgs::Point low, high;
@@ -238,7 +258,31 @@ void VisualizationNode::receiveVessel(const VesselMesh& vessel)
   if (newest_map_)
     drawHeatMap(*newest_map_);  // it arrived before the vessel
   if (vessel_publisher_)
-    drawVessel(vessel);
+    drawVessel(vessel.header);
+}
+
+void VisualizationNode::receiveMotion(const MotionState& message)
+{
+  motions_.add(message);
+  if (std::abs(message.time - last_moved_) < 1.0 / kMovedRate - 1e-4)
+    return;
+  last_moved_ = message.time;
+  const bool stays = map_.resting() && motions_.newest().map.resting();
+  map_ = motions_.newest().map;
+  if (stays)
+    return;
+  std_msgs::Header header;
+  header.stamp = message.header.stamp;
+  header.frame_id = names::kPatientFrame;
+  if (!vessel_publisher_)
+    vessel_publisher_ = node_.advertise<visualization_msgs::Marker>(names::kVesselMarker, 1, true);
+  if (vessel_publisher_.getNumSubscribers() > 0)
+    drawVessel(header);
+  heat_marker_.header = header;
+  if (heat_publisher_.getNumSubscribers() > 0 && !heat_patch_.corners.empty())
+    publishHeatMap();
+  if (tip_path_publisher_.getNumSubscribers() > 0)
+    drawTipPath(header);
 }
 
 void VisualizationNode::receiveTreatment(const TreatmentVisual& message)
@@ -259,9 +303,10 @@ void VisualizationNode::drawBalloons(const TreatmentVisual& message)
   balloons.color.a = 0.5F;
   visualization::TubeBuilder builder(kBalloonSides);
   visualization::Surface surface;
+  const motion::MotionMap map = motions_.nearest(message.step);
   for (const TreatmentBody& body : message.balloons)
   {
-    const intervention::RoundBody balloon = fromMessage(body);
+    const intervention::RoundBody balloon = moved(fromMessage(body), map);
     builder.append({balloon.axis, balloon.radii, std::vector<visualization::TranslucentColour>(balloon.axis.size())},
                    surface);
   }
@@ -274,8 +319,9 @@ void VisualizationNode::drawStents(const TreatmentVisual& message)
   visualization_msgs::Marker stents = marker(message.header, "stent", visualization_msgs::Marker::LINE_LIST);
   stents.color.r = stents.color.g = stents.color.b = 0.75F;
   stents.scale.x = kStrutWidth;
+  const motion::MotionMap map = motions_.nearest(message.step);
   for (const TreatmentBody& body : message.stents)
-    for (const std::vector<Eigen::Vector3d>& ring : intervention::stentStruts(fromMessage(body)))
+    for (const std::vector<Eigen::Vector3d>& ring : intervention::stentStruts(moved(fromMessage(body), map)))
       for (std::size_t k = 0; k + 1 < ring.size(); ++k)
       {
         stents.points.push_back(toPoint(ring[k]));
@@ -297,34 +343,41 @@ void VisualizationNode::drawHeatMap(const ContactForceMap& map)
   if (map.content_hash != vessel_hash_)
     return;
   const bool of_peak = heat_of_ == "peak";
-  const visualization::HeatPatch patch =
-      heat_->patch(map.triangles, of_peak                  ? map.peak
-                                  : heat_of_ == "integral" ? map.integral
-                                                           : map.time_over_threshold);
-  if (!patch.values.empty())
-    heat_scale_.follow(*std::max_element(patch.values.begin(), patch.values.end()));
-  visualization_msgs::Marker heat = marker(map.header, "wall_forces", visualization_msgs::Marker::TRIANGLE_LIST);
-  heat.points.resize(patch.corners.size());
-  std::transform(patch.corners.begin(), patch.corners.end(), heat.points.begin(), toPoint);
-  for (const double value : patch.values)
-    heat.colors.push_back(toMessage(visualization::heatColour(value, heatScale())));
-  publishOrDelete(heat, heat_publisher_);
+  heat_patch_ = heat_->patch(map.triangles, of_peak                  ? map.peak
+                                            : heat_of_ == "integral" ? map.integral
+                                                                     : map.time_over_threshold);
+  const std::vector<double>& values = heat_patch_.values;
+  if (!values.empty())
+    heat_scale_.follow(*std::max_element(values.begin(), values.end()));
+  heat_marker_ = marker(map.header, "wall_forces", visualization_msgs::Marker::TRIANGLE_LIST);
+  for (const double value : values)
+    heat_marker_.colors.push_back(toMessage(visualization::heatColour(value, heatScale())));
+  publishHeatMap();
   drawLegend(map.header);
 }
 
-void VisualizationNode::drawVessel(const VesselMesh& vessel)
+void VisualizationNode::publishHeatMap()
 {
-  visualization_msgs::Marker wall = marker(vessel.header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
+  visualization_msgs::Marker heat = heat_marker_;
+  for (const Eigen::Vector3d& corner : heat_patch_.corners)
+    heat.points.push_back(toPoint(map_.position(corner)));
+  publishOrDelete(heat, heat_publisher_);
+}
+
+void VisualizationNode::drawVessel(const std_msgs::Header& header)
+{
+  visualization_msgs::Marker wall = marker(header, "vessel", visualization_msgs::Marker::TRIANGLE_LIST);
   wall.color.r = 1.0F;
   wall.color.g = 0.55F;
   wall.color.b = 0.5F;
   wall.color.a = 0.35F;
-  wall.points.reserve(3 * vessel.mesh.triangles.size());
-  for (const shape_msgs::MeshTriangle& triangle : vessel.mesh.triangles)
-    for (const std::uint32_t index : triangle.vertex_indices)
-      if (index < vessel.mesh.vertices.size())
-        wall.points.push_back(vessel.mesh.vertices[index]);
-  if (!wall.points.empty() && wall.points.size() % 3 == 0)
+  std::vector<Eigen::Vector3d> vertices;
+  map_.positions(wall_.vertices, vertices);
+  wall.points.reserve(3 * wall_.triangles.size());
+  for (const Eigen::Vector3i& triangle : wall_.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      wall.points.push_back(toPoint(vertices[static_cast<std::size_t>(triangle[corner])]));
+  if (!wall.points.empty())
     vessel_publisher_.publish(wall);
 }
 

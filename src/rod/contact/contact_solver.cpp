@@ -136,15 +136,22 @@ void ContactSolver::reuseEarlierContacts(const State& state)
   addStiffLayers();
 }
 
+void ContactSolver::carry(const State& state, const contact::WallMotion& wall)
+{
+  wall.carry(current_.set.features);
+  for (contact::Feature& feature : current_.set.features)
+    feature.gap = surface_.gapTo(feature, state) + (isStiffLayer(feature) ? stiffLayerDepth(feature, rod_) : 0.0);
+}
+
 void ContactSolver::noteDepths()
 {
   penetration_.store(current_, query_.mouthEdge(), query_.mouth());
 }
 
-void ContactSolver::prepare(const State& state, double dt)
+void ContactSolver::prepare(const State& state, double dt, const contact::WallTravel* wall)
 {
   solve_precedes_detection_ = false;
-  springs_.prepare(state, dt, current_);
+  springs_.prepare(state, dt, current_, wall);
 }
 
 bool ContactSolver::updateActiveSet(const Motion& motion, int pass, bool same_rest)

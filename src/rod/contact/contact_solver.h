@@ -66,6 +66,9 @@ public:
   /** Repeats the detection for a state that was moved back; the contacts of the last solve stay. */
   void detectAgain(const State& state, StepReport& report);
 
+  /** Carries the present contacts with a wall that has moved. @param state carried with it */
+  void carry(const State& state, const contact::WallMotion& wall);
+
   /** Stores the penetration beyond the tolerated depth before a motion (PenetrationLimit). */
   void noteDepths();
 
@@ -75,8 +78,8 @@ public:
   /** Detects if the last answer is missing or stale. */
   void refresh(const State& state, StepReport& report);
 
-  /** Sets the springs of the present contacts; active are those that the velocity would close within @p dt [s]. */
-  void prepare(const State& state, double dt);
+  /** Sets the springs of the present contacts; see ContactSprings::prepare(). */
+  void prepare(const State& state, double dt, const contact::WallTravel* wall = nullptr);
 
   std::size_t count() const { return current_.springs.size(); }
   const Spring& spring(std::size_t index) const { return current_.springs[index]; }

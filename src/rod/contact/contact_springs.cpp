@@ -42,7 +42,7 @@ ContactSpring ContactSprings::springOf(const std::vector<contact::Feature>& feat
   return spring;
 }
 
-void ContactSprings::prepare(const State& state, double dt, ContactList& contacts)
+void ContactSprings::prepare(const State& state, double dt, ContactList& contacts, const contact::WallTravel* wall)
 {
   contacts.springs.clear();
   collectCrossings(state, contacts);
@@ -53,8 +53,12 @@ void ContactSprings::prepare(const State& state, double dt, ContactList& contact
     const int second = std::min(spring.node + 1, rod_.nodes() - 1);
     const Eigen::Vector3d velocity =
         spring.weight0 * state.velocity[spring.node] + spring.weight1 * state.velocity[second];
+    double approach = dt * feature.normal.dot(velocity);
+    if (wall != nullptr)
+      approach -= feature.normal.dot(spring.weight0 * wall->displacement[spring.node] +
+                                     spring.weight1 * wall->displacement[second]);
     spring.gap += wallOffset(state, feature);
-    spring.active = spring.gap + std::min(0.0, dt * feature.normal.dot(velocity)) < 0.0;
+    spring.active = spring.gap + std::min(0.0, approach) < 0.0;
     contacts.springs.push_back(spring);
   }
 }

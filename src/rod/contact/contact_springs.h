@@ -19,8 +19,9 @@ public:
   /** @param rod, settings must outlive this */
   ContactSprings(const Discretisation& rod, const StepperSettings& settings) : rod_(rod), settings_(settings) {}
 
-  /** Sets one spring per feature of the list; active are those that the velocity would close within @p dt [s]. */
-  void prepare(const State& state, double dt, ContactList& contacts);
+  /** Sets one spring per feature of the list; active are those that the velocity would close within @p dt [s].
+   *  @param wall motion of the wall in that time, with which the state moves already; null: it rests */
+  void prepare(const State& state, double dt, ContactList& contacts, const contact::WallTravel* wall = nullptr);
 
   /** Collects the compliant contacts between nodes, in order along the wire; of retained ones those in compression.
    *  Tributary lengths refer to the last collection. */

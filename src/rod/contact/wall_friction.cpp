@@ -13,6 +13,7 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kSticking = 0.99;       // square of the stretch of a node that sticks, over that of the slip
 constexpr double kLeastForce = 1e-9;     // N: smaller wall forces have no friction
 constexpr double kLeastArm = 1e-9;       // m/rad: where a wire stands on the wall, friction does not act on its twist
 constexpr double kTolerance = 0.1;       // deviation from Coulomb's law, share of the sum of all limits
@@ -37,6 +38,19 @@ Vector3d motionPerTurn(const State& state, int node, const Vector3d& normal, dou
   const int before = std::max(node - 1, state.first_node);
   const int after = std::min(node + 1, static_cast<int>(state.position.size()) - 1);
   return radius * normal.cross((state.position[after] - state.position[before]).normalized());
+}
+
+/** Motion of the wall at a node [m]. */
+Vector3d wallTravel(const SurfaceMotion* surface, int node)
+{
+  return surface != nullptr && surface->wall != nullptr ? surface->wall->displacement[node]
+                                                        : Vector3d(Vector3d::Zero());
+}
+
+/** Turn of the wall about the wire's axis at a node [rad]. */
+double wallTurn(const SurfaceMotion& surface, int node)
+{
+  return surface.wall_turn != nullptr ? (*surface.wall_turn)[node] : 0.0;
 }
 
 }  // namespace
@@ -66,17 +80,22 @@ void WallFriction::collect(const State& state, const Motion& begin, const std::v
     Vector3d dragged = state.friction_stretch[i];
     if (surface != nullptr && surface->slide != nullptr)
       dragged += (*surface->slide)[i];
+    if (surface != nullptr && surface->wall != nullptr)
+      dragged -= wallTravel(surface, i);
     const Vector3d travel = state.position[i] - begin[i];
     contact.stretch = tangential(dragged + travel, contact.normal);
     contact.dual = tangential(state.friction_stretch[i], contact.normal) / slip_;
     contact.guess = contact.stretch;
-    if (first_solve)
+    // A node that sticks to a wall whose velocity changes keeps sticking: its own velocity is that of the wall before.
+    const bool sticks = surface != nullptr && surface->wall != nullptr &&
+                        state.friction_stretch[i].squaredNorm() < kSticking * slip_ * slip_;
+    if (first_solve && !sticks)
       contact.guess = tangential(dragged + dt * state.velocity[i], contact.normal);
     contact.inertia = mass != nullptr ? (*mass)[i] / (dt * dt) : 0.0;
     if (surface != nullptr)
     {
       contact.around = motionPerTurn(state, i, contact.normal, surface->radius[i]);
-      contact.begin_angle = surface->begin_angle[i];
+      contact.begin_angle = surface->begin_angle[i] + wallTurn(*surface, i);
     }
     contacts_.push_back(contact);
   }
@@ -250,10 +269,12 @@ void WallFriction::finish(State& state, const Motion& begin, const SurfaceMotion
     const Vector3d normal = state.wall_force[i].normalized();
     if (surface != nullptr && surface->slide != nullptr)
       stretch += (*surface->slide)[i];
+    if (surface != nullptr && surface->wall != nullptr)
+      stretch -= wallTravel(surface, i);
     stretch = tangential(stretch + state.position[i] - begin[i], normal);
     if (surface != nullptr)
     {
-      const double angle = surface->angle[i] - surface->begin_angle[i];
+      const double angle = surface->angle[i] - surface->begin_angle[i] - wallTurn(*surface, i);
       if (angle != 0.0)
         stretch += angle * motionPerTurn(state, i, normal, surface->radius[i]);
     }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/contract/wall_motion.h"
 #include "rod/friction/coulomb_law.h"
 #include "rod/model/state.h"
 #include "rod/twist/twist_friction.h"
@@ -19,6 +20,9 @@ struct SurfaceMotion
   const std::vector<double>& begin_angle;               ///< angle of every node at the beginning of the step [rad], n
   const std::vector<double>& angle;                     ///< angle of every node at the present iterate [rad], n
   const std::vector<Eigen::Vector3d>* slide = nullptr;  ///< slide over every node in the step [m], n; null: none
+  const contact::WallTravel* wall = nullptr;            ///< motion of the wall at every node, n; null: it rests
+  /** Turn of the wall about the wire's axis at every node, relative to the frames of the angles [rad], n. */
+  const std::vector<double>* wall_turn = nullptr;
 };
 
 /** Twist angle of a node: the mean over its edges [rad]. */
@@ -30,6 +34,8 @@ double nodeAngle(const std::vector<double>& twist_angle, int node, int first_nod
  *  dragged over the wall without sliding, |u| ≤ δ. The wall pulls with μ f_n u/δ while |u| ≤ δ, and with μ f_n u/|u|
  *  beyond: the node slides, and its stretch is cut to δ at the end of the step (return mapping). During a step, the
  *  stretch is u plus the tangential motion since the step began. The normal force f_n is that of the last solve.
+ *
+ *  Where the wall moves, tangential motion and turn are those relative to it (SurfaceMotion::wall).
  *
  *  With a SurfaceMotion, the motion is that of the surface: a turn Δθ about the tangent t adds r Δθ n × t, n the wall's
  *  normal. begin_angle follows the turn of the Bishop frame in space where a curved tip

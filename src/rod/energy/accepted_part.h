@@ -47,15 +47,17 @@ struct AcceptedPart
   const BoundaryConditions& conditions;
   const PotentialFunction& potential;
   const ResistingForces& forces;
-  const std::vector<NodeSlide>& slides;          ///< empty: every mass moves with its node
-  const std::vector<TwistFriction>& about_axis;  ///< friction of the wall in the last relaxation of the twist
-  const std::vector<double>& surface_begin;      ///< angle of the surface at every node before the part [rad]
-  const std::vector<double>& surface_angle;      ///< after the part [rad]
-  const std::vector<double>& frame_turns;        ///< of the Bishop frame of every edge [rad]; empty: neglected
-  double wall_energy;                            ///< springs of contacts after the part [J]
-  double layer_friction_push;                    ///< work of the friction between layers along the wire [J]
-  double layer_friction_turn;                    ///< about the wire [J]
-  double insertion_work;                         ///< of the hands, on the potentials at fixed nodes [J]
+  const std::vector<NodeSlide>& slides;            ///< empty: every mass moves with its node
+  const std::vector<TwistFriction>& about_axis;    ///< friction of the wall in the last relaxation of the twist
+  const std::vector<double>& surface_begin;        ///< angle of the surface at every node before the part [rad]
+  const std::vector<double>& surface_angle;        ///< after the part [rad]
+  const std::vector<double>& frame_turns;          ///< of the Bishop frame of every edge [rad]; empty: neglected
+  double wall_energy;                              ///< springs of contacts after the part [J]
+  double layer_friction_push;                      ///< work of the friction between layers along the wire [J]
+  double layer_friction_turn;                      ///< about the wire [J]
+  double insertion_work;                           ///< of the hands, on the potentials at fixed nodes [J]
+  const contact::WallTravel* wall = nullptr;       ///< motion of wall and fluid in the part; null: they rest
+  const std::vector<double>* wall_turn = nullptr;  ///< SurfaceMotion::wall_turn
 };
 
 }  // namespace endovascular_sim::rod

@@ -65,6 +65,18 @@ Eigen::Vector3d surfaceTravel(const AcceptedPart& part, int node)
   return travel;
 }
 
+/** Motion of the wall at a node in a part [m]. */
+Eigen::Vector3d wallTravel(const AcceptedPart& part, int node)
+{
+  return part.wall != nullptr ? part.wall->displacement[node] : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+/** Turn of the wall about the wire's axis at a node in a part [rad]. */
+double wallTurn(const AcceptedPart& part, int node)
+{
+  return part.wall_turn != nullptr ? (*part.wall_turn)[node] : 0.0;
+}
+
 int hands(const State& state)
 {
   return std::max<int>(1, static_cast<int>(state.layers.size()));
@@ -132,6 +144,7 @@ void EnergyAudit::addPart(const AcceptedPart& part)
   addFriction(part);
   addTensions(part);
   addContact(part);
+  addWallMotion(part);
   sums_.pending.turn_error += turn_balance_;
 }
 
@@ -192,8 +205,9 @@ void EnergyAudit::addMotion(const AcceptedPart& part)
   {
     const NodeSlide slide = part.slides.empty() ? NodeSlide() : part.slides[i];
     const Eigen::Vector3d travel = after.position[i] - part.begin[i];
-    sums_.pending.damping += part.forces.damping[i] * (travel + slide.mass).squaredNorm();
-    sums_.pending.drag += part.forces.drag[i] * (travel + slide.surface).squaredNorm();
+    const Eigen::Vector3d in_fluid = travel - wallTravel(part, i);
+    sums_.pending.damping += part.forces.damping[i] * (in_fluid + slide.mass).squaredNorm();
+    sums_.pending.drag += part.forces.drag[i] * (in_fluid + slide.surface).squaredNorm();
     if (part.conditions.isPrescribed(i, after))
       continue;
     const Eigen::Vector3d velocity = (travel + slide.mass) / part.dt;
@@ -265,12 +279,13 @@ void EnergyAudit::addPotentials(const AcceptedPart& part)
 void EnergyAudit::addFriction(const AcceptedPart& part)
 {
   for (int i = part.after.first_node; i < part.rod.nodes(); ++i)
-    sums_.pending.wall_friction += part.forces.friction[i].dot(surfaceTravel(part, i));
+    sums_.pending.wall_friction += part.forces.friction[i].dot(surfaceTravel(part, i) - wallTravel(part, i));
   double rolling = 0.0;
   for (const TwistFriction& friction : part.about_axis)
   {
     const double angle = part.surface_angle[friction.node];
-    rolling += friction.pull(angle - friction.begin_angle) * (angle - part.surface_begin[friction.node]);
+    rolling += friction.pull(angle - friction.begin_angle) *
+               (angle - part.surface_begin[friction.node] - wallTurn(part, friction.node));
   }
   sums_.pending.wall_rolling += rolling;
   sums_.pending.layer_friction += part.layer_friction_push + part.layer_friction_turn;
@@ -303,8 +318,10 @@ void EnergyAudit::addResidual(const AcceptedPart& part, double by_free_nodes)
     const NodeSlide slide = part.slides.empty() ? NodeSlide() : part.slides[i];
     const Eigen::Vector3d travel = travelOf(i);
     const Eigen::Vector3d gained = (travel + slide.mass_gained) / part.dt - part.before.velocity[i];
-    work += travel.dot(part.rod.mass[i] / part.dt * gained + part.forces.damping[i] * (travel + slide.mass) +
-                       part.forces.drag[i] * (travel + slide.surface) + part.forces.friction[i] - after.wall_force[i]);
+    const Eigen::Vector3d in_fluid = travel - wallTravel(part, i);
+    work +=
+        travel.dot(part.rod.mass[i] / part.dt * gained + part.forces.damping[i] * (in_fluid + slide.mass) +
+                   part.forces.drag[i] * (in_fluid + slide.surface) + part.forces.friction[i] - after.wall_force[i]);
     if (i + 1 < part.rod.nodes())
     {
       const Eigen::Vector3d direction = (after.position[i + 1] - after.position[i]).normalized();
@@ -333,7 +350,7 @@ void EnergyAudit::addContact(const AcceptedPart& part)
   for (std::size_t i = static_cast<std::size_t>(part.after.first_node); i < n; ++i)
   {
     const Eigen::Vector3d& force = part.after.wall_force[i];
-    work -= force.dot(part.after.position[i] - part.begin[i]);
+    work -= force.dot(part.after.position[i] - part.begin[i] - wallTravel(part, static_cast<int>(i)));
     if (!same_nodes || force.isZero(0.0))
       continue;
     const double growth = radius[i] - sums_.pending_last.radius[i];
@@ -347,6 +364,30 @@ void EnergyAudit::addContact(const AcceptedPart& part)
   sums_.pending_last.wall_energy = part.wall_energy;
   sums_.pending_last.radius = std::move(radius);
   sums_.pending_last.own_radius = part.rod.radius;
+}
+
+/** Work of a moving wall: its normal forces and friction, and the resistance of the fluid that moves with it. Damping
+ * and drag act on the motion relative to that fluid. */
+void EnergyAudit::addWallMotion(const AcceptedPart& part)
+{
+  if (part.wall == nullptr)
+    return;
+  double work = 0.0;
+  for (int i = part.after.first_node; i < part.rod.nodes(); ++i)
+  {
+    const NodeSlide slide = part.slides.empty() ? NodeSlide() : part.slides[i];
+    const Eigen::Vector3d moved = wallTravel(part, i);
+    const Eigen::Vector3d in_fluid = part.after.position[i] - part.begin[i] - moved;
+    work +=
+        moved.dot(part.after.wall_force[i] - part.forces.friction[i] -
+                  part.forces.damping[i] * (in_fluid + slide.mass) - part.forces.drag[i] * (in_fluid + slide.surface));
+  }
+  double turn = 0.0;
+  for (const TwistFriction& friction : part.about_axis)
+    turn -= friction.pull(part.surface_angle[friction.node] - friction.begin_angle) * wallTurn(part, friction.node);
+  sums_.pending.wall_motion += work + turn;
+  sums_.pending.turnover += std::abs(work) + std::abs(turn);
+  turn_balance_ += turn;
 }
 
 /** Adds the change of the potentials since the last part, e.g. by other nodes.

@@ -43,6 +43,7 @@ private:
   void addFriction(const AcceptedPart& part);
   void addTensions(const AcceptedPart& part);
   void addContact(const AcceptedPart& part);
+  void addWallMotion(const AcceptedPart& part);
   void addResidual(const AcceptedPart& part, double by_free_nodes);
 
   /** Energies and radii after the last part. */

@@ -11,11 +11,12 @@ namespace endovascular_sim::rod
 struct EnergyBalance
 {
   // Work on the wire.
-  double push = 0.0;      ///< hands, along the wire
-  double turn = 0.0;      ///< hands, about the wire
-  double loads = 0.0;     ///< external forces and torques, motion of a held distal end and of rollers
-  double pressure = 0.0;  ///< balloons that widen against the wall
-  double stream = 0.0;    ///< drag of moving fluid (StepInput::drags); negative where the fluid brakes the wire
+  double push = 0.0;         ///< hands, along the wire
+  double turn = 0.0;         ///< hands, about the wire
+  double loads = 0.0;        ///< external forces and torques, motion of a held distal end and of rollers
+  double pressure = 0.0;     ///< balloons that widen against the wall
+  double stream = 0.0;       ///< drag of moving fluid (StepInput::drags); negative where the fluid brakes the wire
+  double wall_motion = 0.0;  ///< moving wall (StepInput::wall): its forces, its friction, and the fluid that it carries
 
   // Stored since the start; a node that enters or leaves the simulated part does not count as a change.
   double kinetic = 0.0;
@@ -49,7 +50,7 @@ struct EnergyBalance
   double turn_error = 0.0;       ///< part of error of the equations of the twist
   double turnover = 0.0;         ///< over all steps: magnitudes of the work, and of the change of stored energy
 
-  double work() const { return push + turn + loads + pressure + stream; }
+  double work() const { return push + turn + loads + pressure + stream + wall_motion; }
   double stored() const { return kinetic + bending + twist + guide + wall + gravity; }
   double dissipated() const { return wall_friction + wall_rolling + layer_friction + valve + damping + drag; }
   double numerical() const
@@ -70,12 +71,13 @@ struct BalanceTerm
 };
 
 /** All terms in the order of the struct. */
-constexpr std::array<BalanceTerm, 29> kBalanceTerms = {{
+constexpr std::array<BalanceTerm, 30> kBalanceTerms = {{
     {"push", &EnergyBalance::push},
     {"turn", &EnergyBalance::turn},
     {"loads", &EnergyBalance::loads},
     {"pressure", &EnergyBalance::pressure},
     {"stream", &EnergyBalance::stream},
+    {"wall_motion", &EnergyBalance::wall_motion},
     {"kinetic", &EnergyBalance::kinetic},
     {"bending", &EnergyBalance::bending},
     {"twist", &EnergyBalance::twist},

@@ -198,6 +198,8 @@ void KktAssembly::addNodeTerms(int node, const KktIterate& at)
     resistance_.slide[node] = damped * slide.travel;
     velocity += at.slides->surface[node] / dt;
   }
+  if (at.wall != nullptr)
+    velocity -= at.wall->displacement[node] / dt;
   const double coefficient = model_.dragCoefficient(node, velocity.norm(), at.state);
   if (coefficient != 0.0)
   {
@@ -208,7 +210,9 @@ void KktAssembly::addNodeTerms(int node, const KktIterate& at)
     if (at.slides != nullptr)
       resistance_.slide[node] += drag * at.slides->surface[node];
   }
-  if (at.slides != nullptr)
+  if (at.wall != nullptr)
+    resistance_.slide[node] -= resistance_.coefficient[node] * at.wall->displacement[node];
+  if (at.slides != nullptr || at.wall != nullptr)
     residual += resistance_.slide[node];
   for (int axis = 0; axis < 3; ++axis)
     system_.rhs[system_.row(node) + axis] -= residual[axis];

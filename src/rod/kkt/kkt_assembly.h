@@ -24,15 +24,17 @@ struct KktIterate
   const LayerSlides* slides;  ///< null: every mass moves with its node
   const std::vector<NodalForce>& forces;
   const std::vector<NodalDrag>& drags;
-  double dt;         ///< [s]
-  bool first_solve;  ///< drag at the velocities of the last step; else at the motion so far
+  double dt;                                  ///< [s]
+  bool first_solve;                           ///< drag at the velocities of the last step; else at the motion so far
+  const contact::WallTravel* wall = nullptr;  ///< motion of wall and fluid in the step; null: they rest
 };
 
 /** Resistance of fluid and damping to the motion of every node. */
 struct NodeResistance
 {
-  std::vector<double> coefficient;     ///< force per travel, times Δt² [kg]
-  std::vector<Eigen::Vector3d> slide;  ///< the same times the slide of the node's masses and surface [kg·m]
+  std::vector<double> coefficient;  ///< force per travel, times Δt² [kg]
+  /** The same times the slide of the node's masses and surface, less the motion of the fluid [kg·m]. */
+  std::vector<Eigen::Vector3d> slide;
 };
 
 /** Assembly of the `kkt` system: bending, inextensibility, inertia, weight, drag, external forces, the introducer. */

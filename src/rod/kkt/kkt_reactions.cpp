@@ -57,10 +57,9 @@ void KktReactions::updateHandParts(const KktSolution& solution, State& state)
     parts.inertia += model.rod.mass[i] * inverse * (inverse * travel - slide_[i].dot(state.velocity[i]));
     parts.drag += solution.resistance.coefficient[i] * inverse * inverse * travel;
     if (solution.slides != nullptr)
-    {
       parts.inertia += model.rod.mass[i] * inverse * inverse * slide_[i].dot(solution.slides->mass[i].gained);
+    if (solution.slides != nullptr || solution.wall != nullptr)
       parts.drag += inverse * inverse * slide_[i].dot(solution.resistance.slide[i]);
-    }
     if (heavy)
       parts.load -= model.immersedMass(i) * slide_[i].dot(model.environment.gravity);
   }

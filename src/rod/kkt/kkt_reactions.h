@@ -27,7 +27,8 @@ struct KktSolution
   const WallFriction& friction;
   const std::vector<NodalForce>& forces;
   const std::vector<NodalDrag>& drags;
-  double dt;  ///< [s]
+  double dt;                                  ///< [s]
+  const contact::WallTravel* wall = nullptr;  ///< motion of wall and fluid in the step; null: they rest
 };
 
 /** Tensions of the edges, reaction forces at the held ends, and the parts of the force on the hand. */

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "common/archive.h"
 #include "rod/kkt/layer_stack.h"
 #include "rod/kkt/single_layer.h"
 #include "rod/kkt/turn_truncation.h"
 #include "rod/sampling/resampling.h"
 #include "rod/stepping/solution_observer.h"
+#include "rod/twist/bishop_frames.h"
 
 namespace endovascular_sim::rod
 {
@@ -121,8 +124,37 @@ double KktStepper::streamWork(const State& state, double dt) const
   return work;
 }
 
+/** Finds the turn of the wall about the wire's axis at every node, as the change of a twist angle that would follow it.
+ *  Angles refer to Bishop frames, which turn by the motion, too. Where the layer model counts their turns, those of the
+ *  wall are in space. @param state before it is carried */
+void KktStepper::findWallTurns(const State& state)
+{
+  const int n = model_.rod.nodes();
+  wall_turn_.assign(static_cast<std::size_t>(n), 0.0);
+  turnsBy(model_.rod, model_.conditions.twistBoundary(state, 0.0), state, travel_.displacement, frame_turn_);
+  for (int j = layers_->firstCountedTurn(); j < n - 1; ++j)
+    frame_turn_[j] = 0.0;
+  for (int i = state.first_node; i < n; ++i)
+  {
+    const int before = std::max(i - 1, state.first_node);
+    const int after = std::min(i + 1, n - 1);
+    const double length = model_.rod.position[after] - model_.rod.position[before];
+    wall_turn_[i] = travel_.turn[i].dot(state.position[after] - state.position[before]) / length -
+                    nodeAngle(frame_turn_, i, state.first_node);
+  }
+}
+
+/** Upper bound of the work of a moving wall in a step that was solved [J]. */
+double KktStepper::wallWork(const State& state) const
+{
+  double work = 0.0;
+  for (int i = state.first_node; carried_ && i < model_.rod.nodes(); ++i)
+    work += (1.0 + state.friction_coefficient[i]) * state.wall_force[i].norm() * travel_.displacement[i].norm();
+  return work;
+}
+
 /** True where a step that was accepted at the limit of solves has more energy than at its beginning and the work of the
- *  handle and of streams: a snap-through too violent for the step. */
+ *  handle, of streams and of the wall: a snap-through too violent for the step. */
 bool KktStepper::gainedEnergy(const State& before, const State& state, double dt)
 {
   if (!hit_iteration_limit_)
@@ -137,8 +169,8 @@ bool KktStepper::gainedEnergy(const State& before, const State& state, double dt
     kinetic += 0.5 * model_.rod.mass[i] * state.velocity[i].squaredNorm();
     kinetic_before += 0.5 * model_.rod.mass[i] * before.velocity[i].squaredNorm();
   }
-  const double work =
-      layers_->handleWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt) + streamWork(state, dt);
+  const double work = layers_->handleWork(before, state) + 0.5 * mass * (travel / dt) * (travel / dt) +
+                      streamWork(state, dt) + wallWork(state);
   const Energy elastic_before = energy(before);
   const Energy elastic = energy(state);
   const double allowed = kEnergyGrowth * (kinetic_before + elastic_before.bending + elastic_before.twist) + work;
@@ -154,6 +186,7 @@ bool KktStepper::solveStep(State& state, const StepInput& input, double dt, Step
   }
   with_turns_ = false;
   placeEnds(state, input, dt);
+  carry(state, input);
   {
     PhaseTimer::Scope scope(*timer_, Phase::kContact);
     contacts_.refresh(state, report);
@@ -182,6 +215,27 @@ void KktStepper::placeEnds(State& state, const StepInput& input, double dt)
   state.rotation = input.rotation;
 }
 
+/** Moves the wall, and carries nodes and contacts with it. */
+void KktStepper::carry(State& state, const StepInput& input)
+{
+  carried_ = input.wall != nullptr;
+  if (!carried_)
+    return;
+  PhaseTimer::Scope scope(*timer_, Phase::kContact);
+  input.wall->move(input.wall_from, input.wall_to, state.position, state.first_node, travel_);
+  findWallTurns(state);
+  for (int i = model_.conditions.firstFreeNode(state); i < model_.rod.nodes(); ++i)
+  {
+    if (!model_.conditions.isDistalHeld(i))
+      state.position[i] += travel_.displacement[i];
+    if (state.wall_force[i].isZero(0.0))
+      continue;
+    state.wall_force[i] += travel_.turn[i].cross(state.wall_force[i]);
+    state.friction_stretch[i] += travel_.turn[i].cross(state.friction_stretch[i]);
+  }
+  contacts_.carry(state, *input.wall);
+}
+
 /** Solves a step until its strain and its contacts are within their tolerances. */
 bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepReport& report)
 {
@@ -193,7 +247,7 @@ bool KktStepper::iterate(State& state, const StepInput& input, double dt, StepRe
     relaxTwist(state, input, k == 0);
     {
       PhaseTimer::Scope scope(*timer_, Phase::kAssembly);
-      contacts_.prepare(state, dt);
+      contacts_.prepare(state, dt, wall());
       assemble(state, input, dt, k == 0, layers_->slides());
     }
     ++report.solves;
@@ -262,7 +316,7 @@ void KktStepper::assemble(const State& state, const StepInput& input, double dt,
     friction_.lineariseWithTurns(surface);
   else
     friction_.linearise(&surface);
-  assembly_.assemble({state, begin_, twist_, slides, input.forces, input.drags, dt, first_solve});
+  assembly_.assemble({state, begin_, twist_, slides, input.forces, input.drags, dt, first_solve, wall()});
 }
 
 /** Computes the motion of a system.
@@ -293,6 +347,8 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
   saved_velocity_ = state.velocity;
   bool solved = true;
   const bool with_turns = with_turns_;
+  const bool carried = carried_;
+  carried_ = false;  // the wall has moved already
   for (int k = 0; k < kMaxRestoringSolves && solved; ++k)
   {
     if (maxStrain(model_.rod, state) <= model_.settings.strain_tolerance)
@@ -300,6 +356,7 @@ bool KktStepper::restoreLengths(State& state, const StepInput& input, double dt,
     solved = restoreOnce(state, input, std::min(kRestoringFraction * dt, kRestoringTime), report);
   }
   with_turns_ = with_turns;
+  carried_ = carried;
   begin_ = saved_begin_;
   state.velocity = saved_velocity_;
   strain_ = maxStrain(model_.rod, state);
@@ -366,7 +423,7 @@ void KktStepper::accept(State& state, double dt)
     noteForces(dt);
   reactions_.update({model_, system_, solution(), motion_, begin_, assembly_.resistance(),
                      assembly_.configurationalForce(), layers_->restForce(state) + assembly_.guideRestForce(state),
-                     layers_->slides(), friction_, last_input_.forces, last_input_.drags, dt},
+                     layers_->slides(), friction_, last_input_.forces, last_input_.drags, dt, wall()},
                     state);
 }
 
@@ -396,7 +453,8 @@ void KktStepper::collectFriction(const State& state, double dt, bool first_solve
 SurfaceMotion KktStepper::surfaceMotion() const
 {
   const LayerSlides* slides = layers_->slides();
-  return {model_.rod.radius, surface_begin_, surface_angle_, slides != nullptr ? &slides->surface : nullptr};
+  return {model_.rod.radius, surface_begin_, surface_angle_, slides != nullptr ? &slides->surface : nullptr, wall(),
+          wallTurn()};
 }
 
 void KktStepper::setContactRadii(const std::vector<double>& radii)
@@ -445,11 +503,28 @@ void KktStepper::showPart(const State& before, const State& after, const StepInp
   layers_->surfaceAngles(after, surface_angle_);
   const LayerFrictionWork layers = layers_->frictionWork(before, after);
   const PotentialFunction potential = [this](const State& state, int from) { return potentialEnergy(state, from); };
-  observer_->addPart({before, after, begin_, input, dt, model_.rod, model_.boundary, model_.conditions, potential,
-                      resisting_, slides, friction_.lastAboutAxis(), surface_begin_, surface_angle_,
-                      layers_->frameTurns(after), spring_energy_, layers.push, layers.turn,
+  observer_->addPart({before,
+                      after,
+                      begin_,
+                      input,
+                      dt,
+                      model_.rod,
+                      model_.boundary,
+                      model_.conditions,
+                      potential,
+                      resisting_,
+                      slides,
+                      friction_.lastAboutAxis(),
+                      surface_begin_,
+                      surface_angle_,
+                      layers_->frameTurns(after),
+                      spring_energy_,
+                      layers.push,
+                      layers.turn,
                       layers_->insertionWork(before, after) +
-                          assembly_.guideRestForce(after) * (after.inserted_length - before.inserted_length)});
+                          assembly_.guideRestForce(after) * (after.inserted_length - before.inserted_length),
+                      wall(),
+                      wallTurn()});
   layers_->restore(after);
 }
 

@@ -23,7 +23,10 @@ namespace endovascular_sim::rod
  *
  *  Inextensibility is a constraint, bending Gauss–Newton, contact an active set of one-sided springs re-evaluated
  * inside the step, friction lagged in its normal force. A solve that would move a point further than its free distance
- * is truncated; contacts are detected again, and the same step is solved again. The instruments are a LayerModel. */
+ * is truncated; contacts are detected again, and the same step is solved again. The instruments are a LayerModel.
+ *
+ *  Where the wall moves (StepInput::wall), the solves of a step begin with the nodes carried by the wall: their places
+ *  in the resting wall are those before the step, so that only solves change them. */
 class KktStepper : public Stepper
 {
 public:
@@ -63,6 +66,9 @@ private:
   bool gainedEnergy(const State& before, const State& state, double dt);
   bool solveStep(State& state, const StepInput& input, double dt, StepReport& report);
   void placeEnds(State& state, const StepInput& input, double dt);
+  void carry(State& state, const StepInput& input);
+  void findWallTurns(const State& state);
+  double wallWork(const State& state) const;
   bool iterate(State& state, const StepInput& input, double dt, StepReport& report);
   void assemble(const State& state, const StepInput& input, double dt, bool first_solve, const LayerSlides* slides);
   bool solve(const State& state, double dt, bool corrected, StepReport& report);
@@ -77,6 +83,8 @@ private:
   void updateTorques(State& state, const StepInput& input);
   void collectFriction(const State& state, double dt, bool first_solve);
   SurfaceMotion surfaceMotion() const;
+  const contact::WallTravel* wall() const { return carried_ ? &travel_ : nullptr; }
+  const std::vector<double>* wallTurn() const { return carried_ ? &wall_turn_ : nullptr; }
   void noteForces(double dt);
   void showPart(const State& before, const State& after, const StepInput& input, double dt);
   PotentialEnergy potentialEnergy(const State& state, int from);
@@ -94,9 +102,13 @@ private:
 
   TwistAction twist_;
   SurfaceTwist surface_twist_;
-  bool turned_ = false;           ///< a handle turns in the present step
-  bool with_turns_ = false;       ///< the unknowns of the present solve include the turns of the surface
-  ContactSolver::Motion motion_;  ///< increment of every node in the last solve [m]
+  bool turned_ = false;             ///< a handle turns in the present step
+  bool carried_ = false;            ///< the wall moves in the present step
+  contact::WallTravel travel_;      ///< motion of the wall in the present part of a step
+  std::vector<double> wall_turn_;   ///< its turn about the wire's axis at every node [rad]
+  std::vector<double> frame_turn_;  ///< of every edge, by that motion [rad]
+  bool with_turns_ = false;         ///< the unknowns of the present solve include the turns of the surface
+  ContactSolver::Motion motion_;    ///< increment of every node in the last solve [m]
   PhaseTimer* timer_ = nullptr;
   bool fading_ = true;                ///< the state may have offsets from a change of nodes
   bool hit_iteration_limit_ = false;  ///< the last step was accepted at the limit of solves

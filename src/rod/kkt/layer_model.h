@@ -120,6 +120,9 @@ public:
   /** Turns of the Bishop frame of every edge since the beginning of the step [rad]; empty: neglected (FrameTurns). */
   virtual const std::vector<double>& frameTurns(const State& state) const = 0;
 
+  /** First edge whose turn counts in frameTurns(); the largest integer where they are neglected. */
+  virtual int firstCountedTurn() const = 0;
+
   /** Force that the rest curvature exerts along the wire where it begins to act, at the introducer's mouth, on the part
    *  inside the introducer: the derivative of the bending energy by the insertion of all layers at fixed nodes [N]. */
   virtual double restForce(const State& state) const = 0;

@@ -39,6 +39,7 @@ public:
   void surfaceAngles(const State& state, std::vector<double>& angle) const override;
   void initialSurfaceAngles(const State& state, std::vector<double>& angle) const override;
   const std::vector<double>& frameTurns(const State& state) const override;
+  int firstCountedTurn() const override { return frame_turns_.firstCounted(); }
   double restForce(const State& state) const override;
   double insertionWork(const State& before, const State& after) const override;
   const LayerSlides* slides() const override { return nullptr; }

@@ -44,9 +44,9 @@ AdaptiveSampling::AdaptiveSampling(const Wire& wire, const Boundary& boundary, c
   demand_.reserve(position_.size());
 }
 
-bool AdaptiveSampling::update(State& state)
+bool AdaptiveSampling::update(State& state, const std::vector<Eigen::Vector3d>* at_rest)
 {
-  measureCurvature(state);
+  measureCurvature(state, at_rest != nullptr ? *at_rest : state.position);
   demandOfShape(state);
   setFixedDemand();
   restrictDemand(state);
@@ -59,7 +59,7 @@ bool AdaptiveSampling::update(State& state)
   return true;
 }
 
-void AdaptiveSampling::measureCurvature(const State& state)
+void AdaptiveSampling::measureCurvature(const State& state, const std::vector<Eigen::Vector3d>& at_rest)
 {
   const int n = rod_.nodes();
   curvature_.assign(static_cast<std::size_t>(n), 0.0);
@@ -67,7 +67,7 @@ void AdaptiveSampling::measureCurvature(const State& state)
     curvature_[i] = binormalAt(rod_, state, i).value.norm() / rod_.cell_length[i];
   if (!ahead_)
     return;
-  const double beyond = curvatureBeyondTip(state.position[n - 2], state.position[n - 1]);
+  const double beyond = curvatureBeyondTip(at_rest[n - 2], at_rest[n - 1]);
   for (int i = n - 1; i >= 0 && rod_.length() - rod_.position[i] < kTipEdges * settings_.max_edge; --i)
     curvature_[i] = std::max(curvature_[i], beyond);
 }

@@ -35,14 +35,16 @@ public:
   const Discretisation& discretisation() const { return rod_; }
 
   /** Splits and merges edges by the shape of the wire, and transfers the state.
+   *  @param at_rest places of the nodes in a vessel at rest, whose curvature counts ahead of the tip; null: the
+   *         positions of the state
    *  @return true when the sampling changed; the stepper then needs Stepper::resample() */
-  bool update(State& state);
+  bool update(State& state, const std::vector<Eigen::Vector3d>* at_rest = nullptr);
 
   /** Saves or loads the positions of the nodes and the curvature ahead. */
   void archive(Archive& archive);
 
 private:
-  void measureCurvature(const State& state);
+  void measureCurvature(const State& state, const std::vector<Eigen::Vector3d>& at_rest);
   double curvatureBeyondTip(const Eigen::Vector3d& before_tip, const Eigen::Vector3d& tip);
   void demandOfShape(const State& state);
   void setFixedDemand();

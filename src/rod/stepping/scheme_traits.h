@@ -19,7 +19,7 @@ struct SchemeTraits
   bool saves = false;               ///< saved states, see Stepper::archive()
   bool observes = false;            ///< e.g. energy audits, see Stepper::setObserver()
   bool streams = false;             ///< nodes in a stream, see StepInput::drags
-  bool moving_walls = false;        ///< a wall that moves with the patient
+  bool moving_walls = false;        ///< walls that move by a map of space, see StepInput::wall
 };
 
 /** All schemes. The first one is the default, and has all capabilities. */

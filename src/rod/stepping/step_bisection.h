@@ -11,6 +11,9 @@ namespace endovascular_sim::rod
 /** Input of the first half of a step that begins at @p state and ends at @p input. */
 StepInput firstHalf(const State& state, const StepInput& input);
 
+/** Input of the second half. @param half input of the first one */
+StepInput secondHalf(const StepInput& half, const StepInput& input);
+
 /** Bisection of time steps: a step that cannot be solved is divided into two halves, at most kMaxDepth times. */
 class StepBisection
 {
@@ -55,7 +58,7 @@ bool StepBisection::advancePart(State& state, const StepInput& input, double dt,
     ++report.bisections;
     const StepInput half = firstHalf(state, input);
     if (advancePart(state, half, 0.5 * dt, depth + 1, report, solve, reset) &&
-        advancePart(state, input, 0.5 * dt, depth + 1, report, solve, reset))
+        advancePart(state, secondHalf(half, input), 0.5 * dt, depth + 1, report, solve, reset))
       return true;
     state = before_[level];
     reset();

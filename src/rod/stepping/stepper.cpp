@@ -43,12 +43,20 @@ StepInput firstHalf(const State& state, const StepInput& input)
   half.inserted_length = 0.5 * (state.inserted_length + input.inserted_length);
   half.rotation = 0.5 * (state.rotation + input.rotation);
   half.distal = between(state.distal, input.distal, 0.5);
+  half.wall_to = 0.5 * (input.wall_from + input.wall_to);
   for (std::size_t k = 0; k < half.layers.size(); ++k)
   {
     half.layers[k].inserted_length = 0.5 * (state.layers[k].inserted_length + input.layers[k].inserted_length);
     half.layers[k].rotation = 0.5 * (state.layers[k].rotation + input.layers[k].rotation);
   }
   return half;
+}
+
+StepInput secondHalf(const StepInput& half, const StepInput& input)
+{
+  StepInput second = input;
+  second.wall_from = half.wall_to;
+  return second;
 }
 
 }  // namespace endovascular_sim::rod

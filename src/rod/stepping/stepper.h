@@ -9,6 +9,7 @@
 
 #include "common/phase_timer.h"
 #include "contact/contract/contact_set.h"
+#include "contact/contract/wall_motion.h"
 #include "rod/model/discretisation.h"
 #include "rod/model/state.h"
 
@@ -130,6 +131,11 @@ struct StepInput
   std::vector<NodalDrag> drags;
   double tip_torque = 0.0;          ///< external torque at the tip [N·m]
   std::vector<double> edge_torque;  ///< external torque about the axis of every edge; empty: none [N·m]
+  /** Motion of the wall in the step, by which the nodes are carried; null: the wall rests. Requires
+   *  SchemeTraits::moving_walls. Nodes that are held must lie where the map is the identity. */
+  contact::WallMotion* wall = nullptr;
+  double wall_from = 0.0;  ///< share of the wall's motion at the beginning of this step
+  double wall_to = 1.0;    ///< at its end
 
   /** Sets the position of every handle: one for a wire, several for a stack. */
   void setHandles(const std::vector<LayerInput>& handles);

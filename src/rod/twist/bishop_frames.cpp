@@ -48,6 +48,24 @@ void BishopFrames::transport(const Discretisation& rod, const TwistBoundary& bou
   }
 }
 
+void turnsBy(const Discretisation& rod, const TwistBoundary& boundary, const State& state,
+             const std::vector<Eigen::Vector3d>& displacement, std::vector<double>& turn)
+{
+  turn.assign(static_cast<std::size_t>(rod.nodes() - 1), 0.0);
+  Eigen::Vector3d before = boundary.tangent, moved_before = Eigen::Vector3d::Zero();
+  double sum = 0.0;
+  for (int j = state.first_node; j + 1 < rod.nodes(); ++j)
+  {
+    const double inverse = 1.0 / rod.rest_length[j];
+    const Eigen::Vector3d tangent = inverse * (state.position[j + 1] - state.position[j]);
+    const Eigen::Vector3d moved = inverse * (displacement[j + 1] - displacement[j]);
+    sum -= before.cross(tangent).dot(moved_before + moved) / (1.0 + before.dot(tangent));
+    turn[j] = sum;
+    before = tangent;
+    moved_before = moved;
+  }
+}
+
 void FrameTurns::begin(const Discretisation& rod, const TwistBoundary& boundary, const State& state, int first_curved)
 {
   active_ = true;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,6 +37,14 @@ private:
   std::vector<Eigen::Vector3d> director_, normal_;  ///< per edge
 };
 
+/** Turns of the Bishop frames of all edges by a small displacement of the nodes, to first order [rad]: the sum of
+ *  −½ κb·(δe/|e|) over the bends between the hold and the edge.
+ *  @param state before the displacement
+ *  @param displacement of every node [m]
+ *  @param turn n−1; 0 before the first simulated node */
+void turnsBy(const Discretisation& rod, const TwistBoundary& boundary, const State& state,
+             const std::vector<Eigen::Vector3d>& displacement, std::vector<double>& turn);
+
 /** Turns of the Bishop frames of a curved tip in a step in which a handle turns. In all other steps they are neglected:
  *  there, the tip hardly swings about the handle's axis. */
 class FrameTurns
@@ -45,6 +55,9 @@ public:
 
   /** Begins a step whose turns are neglected. */
   void neglect() { active_ = false; }
+
+  /** First edge whose turn counts; the largest integer where turns are neglected. */
+  int firstCounted() const { return active_ ? std::max(0, first_curved_ - 1) : std::numeric_limits<int>::max(); }
 
   /** Turns of all edges since the beginning of the step [rad], n−1; empty where they are neglected. */
   const std::vector<double>& since(const Discretisation& rod, const TwistBoundary& boundary, const State& state);

@@ -13,6 +13,7 @@
 
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
+#include "rviz_plugin/display/motion_subscription.h"
 #include "rviz_plugin/widget/legend_picture.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -81,8 +82,9 @@ void SessionView::onInitialize()
                                                                [this](const RodStateVisualConstPtr& message)
                                                                {
                                                                  frame_ = message->header.frame_id;
-                                                                 guide_.setWire(*message);
+                                                                 follower_.add(message);
                                                                });
+    motion_subscriber_ = subscribeToMotion(node_, nodes::names::kMotionState, follower_);
     near_clip_property_->setFloat(kNearClip);
   }
   catch (const std::exception& error)  // rviz would end
@@ -122,6 +124,8 @@ void SessionView::update(float dt, float /*ros_dt*/)
 
 void SessionView::move(double seconds)
 {
+  if (follower_.advance(seconds) && follower_.wire())
+    guide_.setWire(*follower_.wire(), follower_.map());
   Ogre::Vector3 position = Ogre::Vector3::ZERO;
   Ogre::Quaternion orientation = Ogre::Quaternion::IDENTITY;
   if (!frame_.empty() && !context_->getFrameManager()->getTransform(frame_, ros::Time(), position, orientation))

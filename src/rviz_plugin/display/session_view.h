@@ -4,6 +4,7 @@
 #include <ros/subscriber.h>
 #include <rviz/view_controller.h>
 
+#include "rviz_plugin/model/motion_follower.h"
 #include "rviz_plugin/picture/camera_guide.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -34,8 +35,9 @@ private:
 
   CameraGuide guide_;
   rviz::FloatProperty *yaw_, *pitch_, *distance_;
+  MotionFollower follower_;
   ros::NodeHandle node_;
-  ros::Subscriber centreline_subscriber_, wire_subscriber_;
+  ros::Subscriber centreline_subscriber_, wire_subscriber_, motion_subscriber_;
   std::string frame_;  ///< of the messages; empty: that of the camera
 };
 

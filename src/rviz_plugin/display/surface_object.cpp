@@ -1,6 +1,7 @@
 #include "rviz_plugin/display/surface_object.h"
 
 #include <atomic>
+#include <cstring>
 
 #include <OgreMaterialManager.h>
 #include <OgreResourceGroupManager.h>
@@ -69,6 +70,7 @@ SurfaceObject::~SurfaceObject()
 
 void SurfaceObject::update(const visualization::Surface& surface, const std::vector<std::uint32_t>& triangles)
 {
+  vertices_.content.clear();
   if (triangles.empty())
   {
     object_->setVisible(false);
@@ -107,6 +109,54 @@ void SurfaceObject::update(const visualization::Surface& surface, const std::vec
   object_->setVisible(true);
 }
 
+void SurfaceObject::Vertices::setPosition(std::size_t vertex, const Eigen::Vector3f& position)
+{
+  static_assert(sizeof(float) == sizeof(Ogre::Real), "Ogre's positions are floats");
+  std::memcpy(content.data() + vertex * size + offset, position.data(), 3 * sizeof(float));
+}
+
+/** @return false if the object does not draw as many vertices */
+bool SurfaceObject::readVertices(std::size_t count)
+{
+  if (object_->getSections().empty() || !object_->getVisible())
+    return false;
+  if (!vertices_.content.empty())
+    return vertices_.content.size() >= count * vertices_.size;
+  const Ogre::VertexData* data = object_->getSections().front()->getRenderOperation()->vertexData;
+  const Ogre::VertexElement* position = data->vertexDeclaration->findElementBySemantic(Ogre::VES_POSITION);
+  if (position == nullptr || data->vertexCount < count)
+    return false;
+  vertices_.buffer = data->vertexBufferBinding->getBuffer(position->getSource());
+  vertices_.offset = position->getOffset();
+  vertices_.size = vertices_.buffer->getVertexSize();
+  vertices_.content.resize(data->vertexCount * vertices_.size);
+  vertices_.buffer->readData(0, vertices_.content.size(), vertices_.content.data());
+  return true;
+}
+
+void SurfaceObject::writeVertices()
+{
+  vertices_.buffer->writeData(0, vertices_.content.size(), vertices_.content.data(), true);
+}
+
+void SurfaceObject::move(const visualization::Surface& surface, const std::vector<std::uint32_t>& vertices)
+{
+  if (vertices.empty() || !readVertices(surface.positions.size()))
+    return;
+  for (const std::uint32_t vertex : vertices)
+    vertices_.setPosition(vertex, surface.positions[vertex]);
+  writeVertices();
+}
+
+void SurfaceObject::move(const visualization::Surface& surface)
+{
+  if (surface.positions.empty() || !readVertices(surface.positions.size()))
+    return;
+  for (std::size_t vertex = 0; vertex < surface.positions.size(); ++vertex)
+    vertices_.setPosition(vertex, surface.positions[vertex]);
+  writeVertices();
+}
+
 void SurfaceObject::setGlow(const visualization::Colour& colour)
 {
   Ogre::Technique* technique = material_->getTechnique(0);
@@ -129,6 +179,7 @@ void SurfaceObject::setVisible(bool visible)
 void SurfaceObject::clear()
 {
   object_->clear();
+  vertices_ = {};
 }
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <OgreHardwareVertexBuffer.h>
 #include <OgreManualObject.h>
 #include <OgreMaterial.h>
 #include <OgreSceneManager.h>
@@ -43,6 +44,11 @@ public:
   /** Replaces vertices and triangles. Buffers of the graphics processor are reused.
    *  @param triangles vertices of the surface, three per triangle */
   void update(const visualization::Surface& surface, const std::vector<std::uint32_t>& triangles);
+  /** Moves vertices of the surface of the last update(); all else remains. The buffer is written at once.
+   *  @param vertices that have moved */
+  void move(const visualization::Surface& surface, const std::vector<std::uint32_t>& vertices);
+  /** Moves all vertices. */
+  void move(const visualization::Surface& surface);
   /** Light of the surface's own, for walls that are seen at a grazing angle. */
   void setGlow(const visualization::Colour& colour);
   /** Colours without light, as in a legend; the surface hides nothing behind it. For a heat map. */
@@ -51,11 +57,24 @@ public:
   void clear();
 
 private:
+  /** Buffer of the vertices, and a copy of its content for move(). */
+  struct Vertices
+  {
+    Ogre::HardwareVertexBufferSharedPtr buffer;
+    std::vector<unsigned char> content;  ///< empty: not read since the last update()
+    std::size_t offset = 0;              ///< of a position in its vertex [bytes]
+    std::size_t size = 0;                ///< of a vertex [bytes]
+    void setPosition(std::size_t vertex, const Eigen::Vector3f& position);
+  };
+  bool readVertices(std::size_t count);
+  void writeVertices();
+
   Ogre::SceneManager* manager_;
   DrawnFaces faces_;
   Ogre::MaterialPtr material_;
   Ogre::ManualObject* object_;
   bool has_wide_indices_ = false;
+  Vertices vertices_;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

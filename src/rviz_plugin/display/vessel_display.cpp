@@ -23,6 +23,7 @@
 #include "rviz_plugin/display/copied_config.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
+#include "rviz_plugin/display/motion_subscription.h"
 #include "rviz_plugin/widget/font_scale.h"
 #include "rviz_plugin/widget/legend_picture.h"
 
@@ -84,6 +85,9 @@ VesselDisplay::VesselDisplay()
   wire_topic_ = new rviz::RosTopicProperty("Wire Topic", names::kRodStateVisual, typeOf<RodStateVisual>(),
                                            "State of the instruments; its tip is the centre of the cutaway.", this,
                                            SLOT(subscribe()));
+  motion_topic_ =
+      new rviz::RosTopicProperty("Motion Topic", names::kMotionState, typeOf<MotionState>(),
+                                 "Motion of the patient. Empty: the patient rests.", this, SLOT(subscribe()));
   colour_ = new rviz::ColorProperty("Colour", QColor(226, 120, 110), "Colour of the wall.", this, SLOT(redraw()));
   far_opacity_ =
       new rviz::FloatProperty("Far Wall Opacity", 0.75F, "Opacity of the wall behind the lumen.", this, SLOT(redraw()));
@@ -148,7 +152,7 @@ void VesselDisplay::onEnable()
 void VesselDisplay::onDisable()
 {
   for (ros::Subscriber* subscriber : {&mesh_subscriber_, &centreline_subscriber_, &force_subscriber_, &wire_subscriber_,
-                                      &scene_subscriber_, &step_subscriber_})
+                                      &motion_subscriber_, &scene_subscriber_, &step_subscriber_})
     subscriber->shutdown();
   reset();
 }
@@ -162,6 +166,7 @@ void VesselDisplay::reset()
 {
   rviz::Display::reset();
   force_message_.reset();
+  follower_.clearWires();
   has_tip_ = false;
   if (!isEnabled())
   {
@@ -201,7 +206,8 @@ void VesselDisplay::subscribe()
                                                                          });
             wire_subscriber_ = nodes::subscribeGuarded<RodStateVisual>(update_nh_, wire_topic_->getTopicStd(), 1,
                                                                        [this](const RodStateVisualConstPtr& message)
-                                                                       { receiveWire(*message); });
+                                                                       { follower_.add(message); });
+            motion_subscriber_ = subscribeToMotion(update_nh_, motion_topic_->getTopicStd(), follower_);
             scene_subscriber_ =
                 nodes::subscribeGuarded<SessionInfo>(update_nh_, nodes::names::kSessionInfo, 1,
                                                      [this](const SessionInfoConstPtr& info) { receiveScene(*info); });
@@ -237,13 +243,34 @@ std::string VesselDisplay::goal() const
   return step_ < steps_.size() ? steps_[step_].goal : std::string();
 }
 
-void VesselDisplay::receiveWire(const RodStateVisual& message)
+/** Takes over the tip and the motion of the shown state. */
+void VesselDisplay::followPatient()
 {
-  if (message.nodes.empty())
+  const RodStateVisualConstPtr& wire = follower_.wire();
+  if (wire && !wire->nodes.empty())
+  {
+    const geometry_msgs::Point& tip = wire->nodes.back();
+    tip_ = {tip.x, tip.y, tip.z};
+    has_tip_ = tip_.allFinite();
+  }
+  if (drawing_.move(follower_.map()))
+    moveSurfaces();
+}
+
+void VesselDisplay::moveSurfaces()
+{
+  if (!far_wall_ || !heat_)
     return;
-  const geometry_msgs::Point& tip = message.nodes.back();
-  tip_ = {tip.x, tip.y, tip.z};
-  has_tip_ = tip_.allFinite();
+  // Before a draw the surfaces and the drawing may differ.
+  if (!is_mesh_new_)
+  {
+    far_wall_->move(drawing_.wall(), drawing_.movingVertices());
+    near_wall_->move(drawing_.wall(), drawing_.movingVertices());
+  }
+  if (!is_heat_new_)
+    heat_->move(drawing_.heat());
+  have_names_moved_ = names_.move(follower_.map()) || have_names_moved_;
+  context_->queueRender();
 }
 
 void VesselDisplay::redraw()
@@ -288,7 +315,7 @@ void VesselDisplay::followCamera()
     return;
   if (isPlacementDue(*view))
     placeNames();
-  else if (!names_.empty() && hasMoved(*view, drawn_in_, kSmallMotion, kSmallShare))
+  else if (!names_.empty() && (have_names_moved_ || hasMoved(*view, drawn_in_, kSmallMotion, kSmallShare)))
     drawNames(*view);
 }
 
@@ -301,7 +328,8 @@ bool VesselDisplay::isPlacementDue(const visualization::PictureView& view) const
     return view.depth(name.end) > 0.0 &&
            (name.boxInside(view).centre() - name.box(view).centre()).norm() > kSmallMotion;
   };
-  return hasMoved(view, placed_in_, kMotionOfNames, kShareOfNames) || std::any_of(names_.begin(), names_.end(), is_cut);
+  return hasMoved(view, placed_in_, kMotionOfNames, kShareOfNames) ||
+         std::any_of(names_.names().begin(), names_.names().end(), is_cut);
 }
 
 bool VesselDisplay::frameStarted(const Ogre::FrameEvent& /*event*/)
@@ -315,14 +343,18 @@ bool VesselDisplay::isCutawayDue() const
   const double radius = cutaway_->getFloat();
   if (radius <= 0.0 || (ros::WallTime::now() - last_cut_).toSec() < kCutawayPeriod)
     return false;
-  return has_tip_ != is_cut_ || (has_tip_ && (tip_ - cut_at_).norm() > kCutawayShare * radius);
+  // The opening moves with the patient.
+  return has_tip_ != is_cut_ ||
+         (has_tip_ && (follower_.map().pullBack(tip_) - cut_at_).norm() > kCutawayShare * radius);
 }
 
-void VesselDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
+void VesselDisplay::update(float wall_dt, float /*ros_dt*/)
 {
   guarded(*this,
-          [this]
+          [this, wall_dt]
           {
+            if (follower_.advance(wall_dt))
+              followPatient();
             if (is_mesh_new_ || is_heat_new_ || are_names_new_)
               draw();
             else if (near_wall_ && mesh_message_ && isCutawayDue())
@@ -376,7 +408,7 @@ void VesselDisplay::drawNearWall()
   const bool is_drawn = near_opacity_->getFloat() > 0.0F;
   drawing_.cutAway(tip_, has_tip_ ? cutaway_->getFloat() : 0.0F, near_opacity_->getFloat());
   near_wall_->update(drawing_.wall(), is_drawn ? drawing_.wall().triangles : kNone);
-  cut_at_ = tip_;
+  cut_at_ = follower_.map().pullBack(tip_);
   is_cut_ = has_tip_;
   last_cut_ = ros::WallTime::now();
 }
@@ -414,10 +446,9 @@ void VesselDisplay::placeNames()
     return;
   }
   const NameStyle style = nameStyle();
-  names_ = visualization::placeNames(
-      branchesToName(
-          *centreline_message_, [&](const std::string& text) { return nameSize(text, style); }, goal()),
-      *view, names_);
+  names_.place(branchesToName(
+                   *centreline_message_, [&](const std::string& text) { return nameSize(text, style); }, goal()),
+               *view, follower_.map());
   names_placed_ = ros::WallTime::now();
   placed_in_ = *view;
   drawNames(*view);
@@ -425,8 +456,9 @@ void VesselDisplay::placeNames()
 
 void VesselDisplay::drawNames(const visualization::PictureView& view)
 {
-  name_picture_->show(namePicture(names_, view, nameStyle()), {0, 0});
+  name_picture_->show(namePicture(names_.names(), view, nameStyle()), {0, 0});
   drawn_in_ = view;
+  have_names_moved_ = false;
 }
 
 void VesselDisplay::drawLegend()

@@ -20,6 +20,7 @@
 #include "nodes/runtime/ros_names.h"
 #include "rviz_plugin/display/frame_placement.h"
 #include "rviz_plugin/display/guarded.h"
+#include "rviz_plugin/display/motion_subscription.h"
 #include "rviz_plugin/widget/legend_picture.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -52,6 +53,9 @@ WireDisplay::WireDisplay()
                                                 "Balloons and stents.", this, SLOT(subscribe()));
   scene_topic_ = new rviz::RosTopicProperty("Scene Topic", names::kSessionInfo, typeOf<SessionInfo>(),
                                             "Scene with the shapes of the instruments.", this, SLOT(subscribe()));
+  motion_topic_ = new rviz::RosTopicProperty("Motion Topic", names::kMotionState, typeOf<MotionState>(),
+                                             "Motion of the patient of these instruments. Empty: the patient rests.",
+                                             this, SLOT(subscribe()));
   radius_scale_ = new rviz::FloatProperty(
       "Radius Scale", 1.5F, "Drawn radius of the instruments relative to the true one.", this, SLOT(redraw()));
   radius_scale_->setMin(0.1F);
@@ -116,6 +120,7 @@ void WireDisplay::onDisable()
   treatment_subscriber_.shutdown();
   scene_subscriber_.shutdown();
   player_subscriber_.shutdown();
+  motion_subscriber_.shutdown();
   reset();
 }
 
@@ -127,6 +132,7 @@ void WireDisplay::fixedFrameChanged()
 void WireDisplay::reset()
 {
   rviz::Display::reset();
+  follower_.clearWires();
   wire_message_.reset();
   treatment_message_.reset();
   redraw();
@@ -143,10 +149,8 @@ void WireDisplay::subscribe()
             // Queues of one message: between two frames of a slow display only the newest one is of use.
             wire_subscriber_ = nodes::subscribeGuarded<RodStateVisual>(update_nh_, wire_topic_->getTopicStd(), 1,
                                                                        [this](const RodStateVisualConstPtr& message)
-                                                                       {
-                                                                         wire_message_ = message;
-                                                                         is_wire_new_ = true;
-                                                                       });
+                                                                       { follower_.add(message); });
+            motion_subscriber_ = subscribeToMotion(update_nh_, motion_topic_->getTopicStd(), follower_);
             treatment_subscriber_ =
                 nodes::subscribeGuarded<TreatmentVisual>(update_nh_, treatment_topic_->getTopicStd(), 1,
                                                          [this](const TreatmentVisualConstPtr& message)
@@ -194,8 +198,19 @@ void WireDisplay::receivePlayer(const PlayerState& player)
   is_wire_new_ = is_wire_new_ || wire_message_ != nullptr;
 }
 
-void WireDisplay::update(float /*wall_dt*/, float /*ros_dt*/)
+/** Takes over the shown state; balloons and stents move with the patient. */
+void WireDisplay::followPatient()
 {
+  is_wire_new_ = is_wire_new_ || follower_.wire() != wire_message_;
+  wire_message_ = follower_.wire();
+  const bool stays = is_treatment_resting_ && follower_.map().resting();
+  is_treatment_new_ = is_treatment_new_ || (treatment_message_ && !stays);
+}
+
+void WireDisplay::update(float wall_dt, float /*ros_dt*/)
+{
+  if (follower_.advance(wall_dt))
+    followPatient();
   const double radius = smallestRadius();
   if (std::abs(radius - drawn_smallest_radius_) > kShareOfRadius * drawn_smallest_radius_)
     is_wire_new_ = is_wire_new_ || wire_message_ != nullptr;
@@ -240,9 +255,10 @@ void WireDisplay::drawWire()
 void WireDisplay::drawTreatment()
 {
   treatment_.clear();
+  is_treatment_resting_ = follower_.map().resting();
   if (treatment_message_ && shows_treatment_->getBool())
   {
-    const std::string problem = treatment_.update(*treatment_message_);
+    const std::string problem = treatment_.update(*treatment_message_, follower_.map());
     if (problem.empty())
       deleteStatus("Treatment");
     else

@@ -13,6 +13,7 @@
 #include "endovascular_sim/TreatmentVisual.h"
 #include "rviz_plugin/display/legend_overlay.h"
 #include "rviz_plugin/display/surface_object.h"
+#include "rviz_plugin/model/motion_follower.h"
 #include "rviz_plugin/model/treatment_drawing.h"
 #include "rviz_plugin/model/wire_drawing.h"
 
@@ -30,7 +31,8 @@ namespace endovascular_sim::rviz_plugin
 
 /** Display of rviz: instruments as smooth tubes with the colours of force, balloons and stents.
  *
- *  A message is drawn with the next frame; of several messages between two frames only the newest one is drawn. */
+ *  A message is drawn with the next frame; of several messages between two frames only the newest one is drawn. The
+ *  vessel is drawn with the motion of the same step (MotionFollower), and with it balloons and stents. */
 class WireDisplay : public rviz::Display
 {
   Q_OBJECT
@@ -58,6 +60,7 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   void receiveScene(const SessionInfoConstPtr& info);
   /** Takes over the largest force of a recording up to the shown time. */
   void receivePlayer(const PlayerState& player);
+  void followPatient();
   void draw();
   void drawWire();
   void drawTreatment();
@@ -65,7 +68,7 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
   visualization::WireStyle style() const;
   double smallestRadius() const;
 
-  rviz::RosTopicProperty *wire_topic_, *treatment_topic_, *scene_topic_;
+  rviz::RosTopicProperty *wire_topic_, *treatment_topic_, *scene_topic_, *motion_topic_;
   rviz::FloatProperty *radius_scale_, *smallest_width_, *catheter_opacity_, *full_force_;
   rviz::IntProperty* sides_;
   rviz::BoolProperty *shows_forces_, *shows_legend_, *shows_treatment_;
@@ -73,9 +76,11 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
 
   WireDrawing wire_;
   TreatmentDrawing treatment_;
-  RodStateVisualConstPtr wire_message_;
+  MotionFollower follower_;
+  RodStateVisualConstPtr wire_message_;  ///< shown state
   TreatmentVisualConstPtr treatment_message_;
   bool is_wire_new_ = false, is_treatment_new_ = false;
+  bool is_treatment_resting_ = true;    ///< balloons and stents are drawn where they rest
   double drawn_smallest_radius_ = 0.0;  ///< [m]
   double legend_of_ = 0.0;              ///< full scale of the shown legend [N]; 0: none
   std::uint32_t jumps_ = 0;             ///< of the player of a recording
@@ -83,7 +88,7 @@ private:  // NOLINT(readability-redundant-access-specifiers): after slots
 
   std::unique_ptr<SurfaceObject> opaque_, translucent_, balloons_, struts_;
   std::unique_ptr<PictureOverlay> legend_;
-  ros::Subscriber wire_subscriber_, treatment_subscriber_, scene_subscriber_, player_subscriber_;
+  ros::Subscriber wire_subscriber_, treatment_subscriber_, scene_subscriber_, player_subscriber_, motion_subscriber_;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

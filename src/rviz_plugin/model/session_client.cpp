@@ -12,6 +12,7 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/GoToStep.h"
 #include "endovascular_sim/SetHemodynamics.h"
+#include "endovascular_sim/SetMotion.h"
 #include "endovascular_sim/SetSubject.h"
 #include "nodes/conversions/operating_state_conversions.h"
 #include "nodes/runtime/guarded_subscription.h"
@@ -55,6 +56,8 @@ const char* serviceOf(Request request)
       return names::kSetSubject;
     case Request::kSetBlood:
       return names::kSetHemodynamics;
+    case Request::kSetMotion:
+      return names::kSetMotion;
     case Request::kAlignExpert:
       return names::kAlignExpert;
     case Request::kStart:
@@ -164,8 +167,25 @@ void SessionClient::subscribe()
                                                                const std::lock_guard<std::mutex> lock(mutex_);
                                                                pressure_.add(*message);
                                                              }));
+  subscribeToMotion();
   search_ = node_.createWallTimer(ros::WallDuration(kSearchPeriod),
                                   [this](const ros::WallTimerEvent& /*event*/) { searchInstruments(); });
+}
+
+void SessionClient::subscribeToMotion()
+{
+  subscribers_.push_back(nodes::subscribeGuarded<MotionState>(node_, names::kMotionState, 1,
+                                                              [this](const MotionState& message)
+                                                              {
+                                                                const std::lock_guard<std::mutex> lock(mutex_);
+                                                                motion_.add(message);
+                                                              }));
+  subscribers_.push_back(nodes::subscribeGuarded<MotionControls>(node_, names::kMotionControls, 1,
+                                                                 [this](const MotionControls& message)
+                                                                 {
+                                                                   const std::lock_guard<std::mutex> lock(mutex_);
+                                                                   motion_.add(message);
+                                                                 }));
 }
 
 SessionState SessionClient::state() const
@@ -175,6 +195,7 @@ SessionState SessionClient::state() const
     const std::lock_guard<std::mutex> lock(mutex_);
     state = state_;
     state.blood = pressure_.state();
+    state.motion = motion_.status();
     if (secondsSince(player_received_) > kPlayerAge)
       state.player.reset();
     state.wire_age = state.has_wire ? secondsSince(wire_received_) : 0.0;
@@ -298,9 +319,10 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool is_jump = std::abs(message->time - state_.wire.time) > kSameRun;
+  motion_.countWire();
   tip_.reset();
   if (!message->nodes.empty())
-    tip_ = toEigen(message->nodes.back());
+    tip_ = motion_.pullBack(toEigen(message->nodes.back()));
   if (is_jump || !tip_ || state_.branch.empty() || secondsSince(branch_found_) > kBranchPeriod)
     findBranch();
   if (errors_.isOver(state_.branch) && secondsSince(error_noted_) > kLeastErrorTime)
@@ -487,6 +509,16 @@ void SessionClient::setBlood(const BloodRequest& request)
   service.request.hyperaemia = static_cast<std::int8_t>(request.hyperaemia);
   const std::string name = node_.resolveName(names::kSetHemodynamics);
   calls_.begin(Request::kSetBlood, names::kSetHemodynamics, [name, service] { return outcomeOf(name, service); });
+}
+
+void SessionClient::setMotion(const MotionRequest& request)
+{
+  SetMotion service;
+  service.request.heart_rate = request.heart_rate;
+  service.request.breathing_rate = request.breathing_rate;
+  service.request.breath_hold = static_cast<std::int8_t>(request.breath_hold);
+  const std::string name = node_.resolveName(names::kSetMotion);
+  calls_.begin(Request::kSetMotion, names::kSetMotion, [name, service] { return outcomeOf(name, service); });
 }
 
 void SessionClient::alignExpert(std::uint8_t alignment)

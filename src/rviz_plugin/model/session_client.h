@@ -44,6 +44,7 @@ public:
   void setSubject(const std::string& subject) override;
   void alignExpert(std::uint8_t alignment) override;
   void setBlood(const BloodRequest& request) override;
+  void setMotion(const MotionRequest& request) override;
   void controlPlayer(std::uint8_t command, double value) override { player_->give(command, value); }
 
 private:
@@ -74,6 +75,7 @@ private:
   };
 
   void subscribe();
+  void subscribeToMotion();
   void receiveScene(const SessionInfoConstPtr& info);
   void receiveWire(const RodStateVisualConstPtr& message);
   void findBranch();
@@ -96,9 +98,10 @@ private:
   mutable std::mutex mutex_;  ///< of the members up to the next blank line
   SessionState state_;
   Clock::time_point wire_received_, branch_found_, error_noted_, player_received_;
-  std::optional<Eigen::Vector3d> tip_;  ///< the foremost one [m]
+  std::optional<Eigen::Vector3d> tip_;  ///< the foremost one, in the resting patient [m]
   ErrorWatch errors_;
   PressureMonitor pressure_;
+  MotionMonitor motion_;
   vessel::BranchFinder branches_{vessel::CentrelineTree()};
   std::map<std::string, std::shared_ptr<Topics>> instruments_;
   std::map<std::string, Diagnosis> diagnoses_;

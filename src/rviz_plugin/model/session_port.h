@@ -21,6 +21,7 @@ enum class Request
   kShowExpert,     ///< plays the expert's recording
   kSetSubject,     ///< names the trainee, see SessionPort::setSubject()
   kSetBlood,       ///< changes the circulation, see SessionPort::setBlood()
+  kSetMotion,      ///< changes heart and breath, see SessionPort::setMotion()
   kAlignExpert,    ///< shows the expert beside the trainee, see SessionPort::alignExpert()
 };
 
@@ -30,6 +31,16 @@ struct BloodRequest
   double heart_rate = unchanged();     ///< [Hz]
   double mean_pressure = unchanged();  ///< [Pa]
   int hyperaemia = -1;                 ///< 0 or 1; −1: unchanged
+
+  static double unchanged() { return std::numeric_limits<double>::quiet_NaN(); }
+};
+
+/** Change of heart and breath. */
+struct MotionRequest
+{
+  double heart_rate = unchanged();      ///< [Hz]
+  double breathing_rate = unchanged();  ///< [Hz]
+  int breath_hold = -1;                 ///< 0 or 1; −1: unchanged
 
   static double unchanged() { return std::numeric_limits<double>::quiet_NaN(); }
 };
@@ -55,6 +66,7 @@ public:
   /** Shows or hides the expert beside the trainee. @param alignment of ExpertState */
   virtual void alignExpert(std::uint8_t alignment) = 0;
   virtual void setBlood(const BloodRequest& request) = 0;
+  virtual void setMotion(const MotionRequest& request) = 0;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

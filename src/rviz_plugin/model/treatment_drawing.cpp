@@ -1,6 +1,7 @@
 #include "rviz_plugin/model/treatment_drawing.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "intervention/stent_placement.h"
 #include "rviz_plugin/model/message_points.h"
@@ -52,13 +53,15 @@ void appendStent(const intervention::RoundBody& body, double thickness, visualiz
 
 }  // namespace
 
-std::string TreatmentDrawing::update(const TreatmentVisual& message)
+std::string TreatmentDrawing::update(const TreatmentVisual& message, const motion::MotionMap& map)
 {
   clear();
   intervention::RoundBody body;
+  std::vector<Eigen::Vector3d> rest;
   const auto problem = [&](const TreatmentBody& drawn) -> const char*
   {
-    toEigen(drawn.axis, body.axis);
+    toEigen(drawn.axis, rest);
+    map.positions(rest, body.axis);
     body.radii.assign(drawn.radius.begin(), drawn.radius.end());
     return problemOfBody(body);
   };

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "endovascular_sim/TreatmentVisual.h"
+#include "motion/map/motion_map.h"
 #include "visualization/tube_surface.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -12,9 +13,9 @@ namespace endovascular_sim::rviz_plugin
 class TreatmentDrawing
 {
 public:
-  /** Draws a message.
+  /** Draws a message, whose bodies are those of the resting patient, in the moved one. Radii do not change.
    *  @return reason why nothing is drawn; empty for a valid message */
-  std::string update(const TreatmentVisual& message);
+  std::string update(const TreatmentVisual& message, const motion::MotionMap& map);
   void clear();
 
   const visualization::Surface& balloons() const { return balloons_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -26,6 +27,11 @@ geometry::TriangleMesh toMesh(const VesselMesh& message)
   return mesh;
 }
 
+bool isSame(const motion::Fade& a, const motion::Fade& b)
+{
+  return a.centre == b.centre && a.core == b.core && a.reach == b.reach;
+}
+
 const std::vector<float>& valuesOf(const ContactForceMap& message, HeatQuantity quantity)
 {
   switch (quantity)
@@ -46,11 +52,21 @@ std::string VesselDrawing::setVessel(const VesselMesh& message, const visualizat
 {
   wall_.clear();
   heat_.clear();
+  heat_rest_.clear();
   heat_map_.reset();
+  rest_.clear();
+  moving_.clear();
+  moving_rest_.clear();
   geometry::TriangleMesh mesh = toMesh(message);
   if (const char* problem = visualization::problemOfMesh(mesh))
     return problem;
   wall_ = visualization::wallSurface(mesh, colour);
+  rest_ = mesh.vertices;
+  if (!map_.resting())
+  {
+    findMoving();
+    moveWall();
+  }
   heat_map_ = std::make_unique<visualization::WallHeatMap>(std::move(mesh), kHeatRadius, kHeatInset);
   if (message.version <= 1 || hash_ == 0)
     hash_ = message.content_hash;  // maps contain the hash of the initial wall
@@ -60,6 +76,7 @@ std::string VesselDrawing::setVessel(const VesselMesh& message, const visualizat
 std::string VesselDrawing::setForces(const ContactForceMap& message, HeatQuantity quantity, double full_scale)
 {
   heat_.clear();
+  heat_rest_.clear();
   if (!heat_map_ || message.content_hash != hash_)
     return "waiting for the vessel of this map";
   const std::vector<float>& values = valuesOf(message, quantity);
@@ -74,7 +91,7 @@ std::string VesselDrawing::setForces(const ContactForceMap& message, HeatQuantit
   if (!values.empty())
     scale_.follow(*std::max_element(values.begin(), values.end()));
   full_scale_ = full_scale > 0.0 ? full_scale : scale_.full();
-  const visualization::HeatPatch patch = heat_map_->patch(message.triangles, values);
+  visualization::HeatPatch patch = heat_map_->patch(message.triangles, values);
   for (std::size_t i = 0; i + 2 < patch.corners.size(); i += 3)
   {
     const Eigen::Vector3d normal =
@@ -87,7 +104,55 @@ std::string VesselDrawing::setForces(const ContactForceMap& message, HeatQuantit
       heat_.colours.push_back(visualization::heatColour(patch.values[k], full_scale_));
     }
   }
+  heat_rest_ = std::move(patch.corners);
+  if (!map_.resting())
+    moveHeat();
   return {};
+}
+
+bool VesselDrawing::move(const motion::MotionMap& map)
+{
+  if (map.resting() && map_.resting())
+    return false;
+  // The identity keeps the vertices of the motion before, which return to rest.
+  const bool is_other_fade = !map.resting() && (moving_.empty() || !isSame(map.frame().fade, map_.frame().fade));
+  if (is_other_fade && !map_.resting())
+  {
+    map_ = nodes::restingMap();
+    moveWall();
+  }
+  map_ = map;
+  if (is_other_fade)
+    findMoving();
+  moveWall();
+  moveHeat();
+  return true;
+}
+
+void VesselDrawing::findMoving()
+{
+  moving_.clear();
+  moving_rest_.clear();
+  for (std::size_t i = 0; i < rest_.size(); ++i)
+    if (!map_.outside(rest_[i]))
+    {
+      moving_.push_back(static_cast<std::uint32_t>(i));
+      moving_rest_.push_back(rest_[i]);
+    }
+}
+
+void VesselDrawing::moveWall()
+{
+  map_.positions(moving_rest_, moved_);
+  for (std::size_t k = 0; k < moving_.size(); ++k)
+    wall_.positions[moving_[k]] = moved_[k].cast<float>();
+}
+
+void VesselDrawing::moveHeat()
+{
+  map_.positions(heat_rest_, moved_);
+  for (std::size_t k = 0; k < heat_rest_.size(); ++k)
+    heat_.positions[k] = moved_[k].cast<float>();
 }
 
 void VesselDrawing::cutAway(const Eigen::Vector3d& point, double radius, float opacity)

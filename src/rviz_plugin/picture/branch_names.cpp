@@ -14,6 +14,40 @@ constexpr double kReach = 1.5;  ///< greatest depth of a branch with a name, rel
 
 }  // namespace
 
+void MovingNames::place(std::vector<visualization::BranchToName> branches, const visualization::PictureView& view,
+                        const motion::MotionMap& map)
+{
+  std::vector<Eigen::Vector3d> moved;
+  for (visualization::BranchToName& branch : branches)
+  {
+    map.positions(branch.points, moved);
+    branch.points.swap(moved);
+  }
+  move(map);
+  names_ = visualization::placeNames(branches, view, names_);
+  rest_.clear();
+  for (const visualization::PlacedName& name : names_)
+    rest_.push_back(map.pullBack(name.end));
+}
+
+bool MovingNames::move(const motion::MotionMap& map)
+{
+  bool has_moved = false;
+  for (std::size_t k = 0; k < names_.size(); ++k)
+  {
+    const Eigen::Vector3d end = map.position(rest_[k]);
+    has_moved = has_moved || end != names_[k].end;
+    names_[k].end = end;
+  }
+  return has_moved;
+}
+
+void MovingNames::clear()
+{
+  names_.clear();
+  rest_.clear();
+}
+
 std::vector<visualization::BranchToName> branchesToName(
     const VesselCentreline& message, const std::function<Eigen::Vector2d(const std::string&)>& size_of,
     const std::string& goal)

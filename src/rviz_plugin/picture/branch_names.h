@@ -7,10 +7,33 @@
 #include <Eigen/Core>
 
 #include "endovascular_sim/VesselCentreline.h"
+#include "motion/map/motion_map.h"
 #include "visualization/name_placement.h"
 
 namespace endovascular_sim::rviz_plugin
 {
+
+/** Names of the branches in the picture of the moving patient. They are placed for one motion; then each moves with the
+ *  end of its leader, so that it stays beside its branch. */
+class MovingNames
+{
+public:
+  /** Places the names anew; a name keeps its offset where that is still possible.
+   *  @param branches at rest */
+  void place(std::vector<visualization::BranchToName> branches, const visualization::PictureView& view,
+             const motion::MotionMap& map);
+  /** Moves the ends of the leaders.
+   *  @return true if one has moved */
+  bool move(const motion::MotionMap& map);
+  void clear();
+
+  const std::vector<visualization::PlacedName>& names() const { return names_; }
+  bool empty() const { return names_.empty(); }
+
+private:
+  std::vector<visualization::PlacedName> names_;
+  std::vector<Eigen::Vector3d> rest_;  ///< ends of the leaders at rest [m]
+};
 
 /** Branches of a message with their displayed names, for visualization::placeNames(). Branches with a generated name
  *  (branch_<k>) have no text, and those with invalid points are not drawn.

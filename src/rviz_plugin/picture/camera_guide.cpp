@@ -84,21 +84,25 @@ void CameraGuide::setVessel(const VesselCentreline& message)
     }
 }
 
-void CameraGuide::setWire(const RodStateVisual& message)
+void CameraGuide::setWire(const RodStateVisual& message, const motion::MotionMap& map)
 {
   std::vector<Eigen::Vector3d> nodes;
   toEigen(message.nodes, nodes);
+  map_ = map;
   if (!nodes.empty() &&
       std::all_of(nodes.begin(), nodes.end(), [](const Eigen::Vector3d& node) { return node.allFinite(); }))
-    wire_.swap(nodes);
+    map_.pullBack(nodes, wire_);
 }
 
 void CameraGuide::beginAt(const CameraPose& pose)
 {
   if (!pose.eye.allFinite() || !pose.focus.allFinite() || !pose.up.allFinite())
     return;
-  focus_.jumpTo(pose.focus);
-  offset_.jumpTo(pose.eye - pose.focus);
+  const bool moves = mode_ == ViewMode::kAlongVessel;
+  const Eigen::Vector3d focus = moves ? map_.pullBack(pose.focus) : pose.focus;
+  const Eigen::Vector3d eye = moves ? map_.pullBack(pose.eye) : pose.eye;
+  focus_.jumpTo(focus);
+  offset_.jumpTo(eye - focus);
   up_.jumpTo(pose.up);
   has_begun_ = true;
 }
@@ -149,6 +153,14 @@ CameraGuide::Target CameraGuide::targetOf(const ViewSetting& setting, double asp
   return alongTheVessel(is_distance_set ? setting.distance : kDistanceBehind);
 }
 
+void CameraGuide::moveWithPatient(CameraPose& pose) const
+{
+  pose.eye = map_.position(pose.eye);
+  pose.focus = map_.position(pose.focus);
+  if ((pose.focus - pose.eye).norm() > 1e-9)
+    pose.up = normalPart(pose.up, (pose.focus - pose.eye).normalized());
+}
+
 CameraPose CameraGuide::advance(const ViewSetting& setting, double seconds, double aspect, double field_of_view)
 {
   const Target target = targetOf(setting, aspect, field_of_view);
@@ -165,6 +177,8 @@ CameraPose CameraGuide::advance(const ViewSetting& setting, double seconds, doub
   else
     up_.follow(Eigen::Vector3d::UnitZ(), kRate, time);
   pose.up = normalPart(up_.point(), forward);
+  if (mode_ == ViewMode::kAlongVessel && !map_.resting())
+    moveWithPatient(pose);
   return pose;
 }
 

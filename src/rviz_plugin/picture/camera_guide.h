@@ -7,6 +7,8 @@
 
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
+#include "motion/map/motion_map.h"
+#include "nodes/visualization/motion_history.h"
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -50,7 +52,10 @@ private:
 };
 
 /** Smooth motion of a camera after the tip. The picture does not roll: in the overview and behind the tip the patient's
- * axis stays vertical; along the vessel the upper side is transported with the least rotation. */
+ * axis stays vertical; along the vessel the upper side is transported with the least rotation.
+ *
+ *  The camera moves in the resting patient: in the overview and behind the tip it stands still while the heart beats.
+ *  Along the vessel it then moves with the patient, so that it stays in the lumen. */
 class CameraGuide
 {
 public:
@@ -58,8 +63,9 @@ public:
 
   /** Takes over the centreline; invalid points are ignored. */
   void setVessel(const VesselCentreline& message);
-  /** Takes over the tip and its path; a message with an invalid point is ignored. */
-  void setWire(const RodStateVisual& message);
+  /** Takes over the tip and its path; a message with an invalid point is ignored.
+   *  @param map motion of the patient at the state of the message */
+  void setWire(const RodStateVisual& message, const motion::MotionMap& map = nodes::restingMap());
 
   /** Begins at a pose, from which the camera then moves smoothly. */
   void beginAt(const CameraPose& pose);
@@ -84,6 +90,7 @@ private:
   Target targetOf(const ViewSetting& setting, double aspect, double field_of_view) const;
   double fittingDistance(const ViewSetting& setting, double aspect, double field_of_view) const;
   Target alongTheVessel(double distance) const;
+  void moveWithPatient(CameraPose& pose) const;
   Eigen::Vector3d centre() const { return 0.5 * (low_ + high_); }
 
   ViewMode mode_;
@@ -91,7 +98,8 @@ private:
   std::vector<double> radii_;
   Eigen::Vector3d low_ = Eigen::Vector3d::Constant(-0.2);   ///< lower corner of the vessel's box [m]
   Eigen::Vector3d high_ = Eigen::Vector3d::Constant(+0.2);  ///< upper corner [m]
-  std::vector<Eigen::Vector3d> wire_;
+  std::vector<Eigen::Vector3d> wire_;                       ///< in the resting patient [m]
+  motion::MotionMap map_ = nodes::restingMap();
   SmoothPoint focus_, offset_, up_;
   bool has_begun_ = false;
 };

@@ -1,9 +1,11 @@
 #include "rviz_plugin/widget/panel_parts.h"
 
+#include <cmath>
 #include <utility>
 
 #include <QLabel>
 #include <QPushButton>
+#include <QSpinBox>
 
 #include "rviz_plugin/widget/font_scale.h"
 
@@ -28,6 +30,35 @@ QLabel* panelLabel(const QString& name)
   label->setFont(scaledFont(label->font()));  // a label with a style sheet does not take the font of its parent
   label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // texts do not change the width of the panel
   return label;
+}
+
+QSpinBox* numberBox(const QString& name, const QString& unit, int low, int high)
+{
+  auto* box = new QSpinBox;
+  box->setObjectName(name);
+  box->setRange(low, high);
+  box->setSingleStep(5);
+  box->setSuffix(unit);
+  box->setFocusPolicy(Qt::ClickFocus);
+  return box;
+}
+
+void showNumber(QSpinBox& box, double value)
+{
+  if (!box.hasFocus() && box.value() != std::lround(value))
+    box.setValue(static_cast<int>(std::lround(value)));
+}
+
+void onTyped(QSpinBox& box, QWidget& keys, std::function<void(int)> take)
+{
+  QObject::connect(&box, &QSpinBox::editingFinished, &box,
+                   [&box, &keys, take = std::move(take)]
+                   {
+                     if (!box.hasFocus())
+                       return;
+                     take(box.value());
+                     keys.setFocus();
+                   });
 }
 
 }  // namespace endovascular_sim::rviz_plugin

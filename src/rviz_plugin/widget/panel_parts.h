@@ -6,6 +6,8 @@
 
 class QLabel;
 class QPushButton;
+class QSpinBox;
+class QWidget;
 
 namespace endovascular_sim::rviz_plugin
 {
@@ -18,6 +20,18 @@ QPushButton* panelButton(const QString& text, const QString& name, std::function
 /** Label of plain text; "–" at first. Its text has no effect on the width of the panel.
  *  @param name of the object */
 QLabel* panelLabel(const QString& name);
+
+/** Box of a whole number, which takes the focus by a click only.
+ *  @param name of the object
+ *  @param unit after the number, e.g. " mmHg" */
+QSpinBox* numberBox(const QString& name, const QString& unit, int low, int high);
+
+/** Shows a value unless somebody types another one. */
+void showNumber(QSpinBox& box, double value);
+
+/** Calls a function with a number that was typed and ended by Enter.
+ *  @param keys takes the focus then */
+void onTyped(QSpinBox& box, QWidget& keys, std::function<void(int)> take);
 
 /** Removes the margins of a layout and sets its spacing to that of the panel. @return the layout */
 template <typename Layout>

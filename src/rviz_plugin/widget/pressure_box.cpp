@@ -28,24 +28,6 @@ QString rounded(double pressure)
   return std::isfinite(pressure) ? QString::number(std::lround(pressure / kMillimetreOfMercury)) : QString("–");
 }
 
-QSpinBox* spinBox(const QString& name, const QString& unit, int low, int high)
-{
-  auto* box = new QSpinBox;
-  box->setObjectName(name);
-  box->setRange(low, high);
-  box->setSingleStep(5);
-  box->setSuffix(unit);
-  box->setFocusPolicy(Qt::ClickFocus);
-  return box;
-}
-
-/** Shows a value unless somebody types another one. */
-void showValue(QSpinBox& box, double value)
-{
-  if (!box.hasFocus() && box.value() != std::lround(value))
-    box.setValue(static_cast<int>(std::lround(value)));
-}
-
 }  // namespace
 
 QString pressureText(const BloodState& blood)
@@ -91,27 +73,16 @@ PressureBox::PressureBox(SessionPort& port, QWidget& keys)
       });
   adenosine_->setCheckable(true);
   adenosine_->setToolTip("dilates the small vessels of the heart's muscle");
-  rate_ = spinBox("heart_rate", " /min", kSlowest, kFastest);
+  rate_ = numberBox("heart_rate", " /min", kSlowest, kFastest);
   rate_->setToolTip("heart rate; type a number, then Enter");
-  pressure_ = spinBox("mean_pressure", " mmHg", kLowest, kHighest);
+  pressure_ = numberBox("mean_pressure", " mmHg", kLowest, kHighest);
   pressure_->setToolTip("mean pressure that the circulation aims at; type a number, then Enter");
   inputs->addWidget(adenosine_);
   inputs->addWidget(rate_, 1);
   inputs->addWidget(pressure_, 1);
   layout->addLayout(inputs);
-  const auto confirm = [&keys](QSpinBox* box, auto request)
-  {
-    connect(box, &QSpinBox::editingFinished, box,
-            [box, request, &keys]
-            {
-              if (!box->hasFocus())
-                return;
-              request(box->value());
-              keys.setFocus();
-            });
-  };
-  confirm(rate_, [&port](int rate) { port.setBlood({rate / kMinute, BloodRequest::unchanged(), -1}); });
-  confirm(pressure_,
+  onTyped(*rate_, keys, [&port](int rate) { port.setBlood({rate / kMinute, BloodRequest::unchanged(), -1}); });
+  onTyped(*pressure_, keys,
           [&port](int pressure) {
             port.setBlood({BloodRequest::unchanged(), pressure * kMillimetreOfMercury, -1});
           });
@@ -123,8 +94,8 @@ void PressureBox::showBlood(const BloodState& blood, bool is_played)
   values_->setText(pressureText(blood));
   ratio_->setText(ratioText(blood));
   adenosine_->setChecked(blood.hyperaemia);
-  showValue(*rate_, kMinute * blood.heart_rate);
-  showValue(*pressure_, blood.mean_pressure / kMillimetreOfMercury);
+  showNumber(*rate_, kMinute * blood.heart_rate);
+  showNumber(*pressure_, blood.mean_pressure / kMillimetreOfMercury);
   for (QWidget* input :
        {static_cast<QWidget*>(adenosine_), static_cast<QWidget*>(rate_), static_cast<QWidget*>(pressure_)})
     input->setEnabled(!is_played);

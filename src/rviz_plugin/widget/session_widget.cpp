@@ -11,6 +11,7 @@
 #include "rviz_plugin/widget/drive_box.h"
 #include "rviz_plugin/widget/expert_row.h"
 #include "rviz_plugin/widget/font_scale.h"
+#include "rviz_plugin/widget/motion_box.h"
 #include "rviz_plugin/widget/panel_parts.h"
 #include "rviz_plugin/widget/player_row.h"
 #include "rviz_plugin/widget/pressure_box.h"
@@ -68,12 +69,15 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::stri
   c_arm_ = new CArmRow(port_, *this);
   pressure_ = new PressureBox(port_, *this);
   pressure_->hide();
+  motion_ = new MotionBox(port_, *this);
+  motion_->hide();
   notice_ = panelLabel("notice");
   notice_->setWordWrap(true);
   notice_->setFixedHeight(kNoticeLines * fontMetrics().lineSpacing() + 8);
-  for (QWidget* part : {static_cast<QWidget*>(session_), static_cast<QWidget*>(player_), static_cast<QWidget*>(drive_),
-                        static_cast<QWidget*>(notice_), static_cast<QWidget*>(pressure_), static_cast<QWidget*>(c_arm_),
-                        views, static_cast<QWidget*>(box_)})
+  for (QWidget* part :
+       {static_cast<QWidget*>(session_), static_cast<QWidget*>(player_), static_cast<QWidget*>(drive_),
+        static_cast<QWidget*>(notice_), static_cast<QWidget*>(pressure_), static_cast<QWidget*>(motion_),
+        static_cast<QWidget*>(c_arm_), views, static_cast<QWidget*>(box_)})
     layout->addWidget(part);
   subject_ = new SubjectRow(port_, *this);
   layout->addWidget(subject_);
@@ -114,9 +118,7 @@ void SessionWidget::refresh()
   session_->showState(state_, texts);
   drive_->showState(texts, takesKeys());
   box_->showState(state_, texts);
-  pressure_->setVisible(state_.blood.has_value());
-  if (state_.blood)
-    pressure_->showBlood(*state_.blood, state_.player.has_value());
+  showPatient();
   c_arm_->showView(state_.c_arm_view);
   subject_->setVisible(!state_.player);
   subject_->showSubject(state_.subject);
@@ -163,6 +165,16 @@ void SessionWidget::showPlayer()
   player_->setVisible(is_played);
   drive_->setDriving(!is_played);
   c_arm_->setEnabled(!is_played);  // the pose is that of the recording
+}
+
+void SessionWidget::showPatient()
+{
+  pressure_->setVisible(state_.blood.has_value());
+  if (state_.blood)
+    pressure_->showBlood(*state_.blood, state_.player.has_value());
+  motion_->setVisible(state_.motion.has_value());
+  if (state_.motion)
+    motion_->showMotion(*state_.motion, state_.blood.has_value(), state_.player.has_value());
 }
 
 void SessionWidget::showNotice()

@@ -19,6 +19,7 @@ namespace endovascular_sim::rviz_plugin
 class CArmRow;
 class DriveBox;
 class ExpertRow;
+class MotionBox;
 class PlayerRow;
 class PressureBox;
 class SessionRow;
@@ -74,6 +75,7 @@ private:
   void showNotice();
   void endLesson();
   void showPlayer();
+  void showPatient();  ///< blood, heart and breath
 
   SessionPort& port_;
   Joystick joystick_;
@@ -83,6 +85,7 @@ private:
   DriveBox* drive_;
   StateBox* box_;
   PressureBox* pressure_;
+  MotionBox* motion_;
   CArmRow* c_arm_;
   QLabel* notice_;  ///< error of the trainee, or reason why the instrument does not follow
   SubjectRow* subject_;

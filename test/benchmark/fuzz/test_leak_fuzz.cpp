@@ -36,6 +36,22 @@ TEST(LeakFuzz, NoWireLeavesARandomChannel)
   EXPECT_GT(deepest, 1e-6);  // the wires touched walls
 }
 
+TEST(LeakFuzz, NoWireLeavesAMovingVessel)
+{
+  FuzzVessels vessels({});
+  FuzzSettings moving = settings();
+  moving.moving = true;
+  moving.steps_per_episode = 400;
+  for (std::uint64_t k = 0; k < 8; ++k)
+  {
+    const FuzzEpisode episode = fuzzEpisode(vessels, moving, k);
+    EXPECT_TRUE(episode.finite) << k;
+    EXPECT_FALSE(episode.escaped) << k << ": " << episode.description;
+    EXPECT_LE(episode.depth, kFuzzDepth) << k << ": " << episode.description;
+    EXPECT_GE(episode.checks, 40);
+  }
+}
+
 // Stiff wires of which a few millimetres are in the vessel: their force snaps from one limit to the other within
 // micrometres, so that no position of the hand is within its grip.
 TEST(LeakFuzz, NoHandBearsMoreThanItsGripBesideASnap)

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "common/error.h"
-#include "test/patient/volume_shapes.h"
+#include "test/fluoroscopy/motion_fixtures.h"
 
 namespace endovascular_sim::fluoroscopy
 {
@@ -75,6 +77,87 @@ TEST(ProgressiveProjection, IsFinalInItsFirstFrameWhereNothingIsToBeRefined)
   other.frame(geometry);
   EXPECT_EQ(first.tissue, other.frame(geometry).tissue);
   EXPECT_EQ(first.bone, other.frame(geometry).bone);
+}
+
+TEST(ProgressiveProjection, AtAPhaseOfRestHasTheBitsOfAPatientWhoDoesNotMove)
+{
+  const auto projection = std::make_shared<const VolumeProjection>(smoothBody(80, 3e-3));
+  ProgressiveProjection moving(projection, {16, 32, 256}), resting(projection, {16, 32, 256});
+  const XRayGeometry geometry(heartView(0.2, 0.1, 64));
+  for (int frame = 0; frame < 6; ++frame)
+  {
+    moving.setMotion(motionAt(0.0, 0.0));
+    EXPECT_EQ(moving.frame(geometry).tissue, resting.frame(geometry).tissue) << frame;
+    EXPECT_EQ(moving.revision(), resting.revision()) << frame;
+  }
+  moving.setMotion(largestMotion());
+  EXPECT_NE(moving.frame(geometry).tissue, resting.frame(geometry).tissue);
+  moving.setMotion(BodyMotion());
+  EXPECT_EQ(moving.frame(geometry).tissue, resting.frame(geometry).tissue);
+  EXPECT_EQ(moving.frame(geometry).bone, resting.frame(geometry).bone);
+}
+
+TEST(ProgressiveProjection, AddsTheChangeOfTheMotionAtTheFirstResolution)
+{
+  const auto projection = std::make_shared<const VolumeProjection>(smoothBody(80, 3e-3));
+  ProgressiveProjection moving(projection, {16, 32, 1 << 20, MotionSampling::kExact});
+  const XRayGeometry geometry(heartView(0.2, 0.1, 64));
+  MovedTissue tissue(*projection, motion::naturalHeart());
+  std::vector<float> wanted = resampled(projection->project(geometry, 32), 64).tissue;
+  addResampled(tissue.change(geometry, 16, largestMotion(), MotionSampling::kExact), 16, 64, wanted);
+  moving.setMotion(motionAt(0.3, 0.2));
+  moving.frame(geometry);
+  moving.setMotion(largestMotion());
+  const int before = moving.revision();
+  EXPECT_EQ(moving.frame(geometry).tissue, wanted);
+  EXPECT_EQ(moving.revision(), before + 1);
+  EXPECT_EQ(moving.frame(geometry).tissue, wanted);
+  EXPECT_EQ(moving.revision(), before + 1);
+}
+
+TEST(ProgressiveProjection, TakesTheChangeOfAnEarlierPhaseWithinItsTolerance)
+{
+  const auto projection = std::make_shared<const VolumeProjection>(smoothBody(100, 2.5e-3));
+  ProgressiveProjection moving(projection, {64, 64, 1 << 20});
+  const XRayGeometry geometry(heartView(0.2, 0.1, 64));
+  MovedTissue tissue(*projection, motion::naturalHeart());
+  const std::vector<float> still = projection->project(geometry, 64).tissue;
+  double error = 0.0, change = 0.0;
+  for (int frame = 0; frame < 120; ++frame)  // eight seconds
+  {
+    const BodyMotion motion = motionAt(std::fmod(frame / 15.0 * 70.0 / 60.0, 1.0), std::fmod(frame / 60.0, 1.0));
+    moving.setMotion(motion);
+    std::vector<float> wanted = still;
+    if (!motion.resting())
+      addResampled(tissue.change(geometry, 64, motion, MotionSampling::kExact), 64, 64, wanted);
+    error = std::max(error, rootMeanSquare(difference(moving.frame(geometry).tissue, wanted)));
+    change = std::max(change, rootMeanSquare(difference(wanted, still)));
+  }
+  EXPECT_GT(moving.reusedFrames(), 10U);
+  EXPECT_GT(moving.movedFrames(), moving.reusedFrames());
+  EXPECT_GT(change, 5.0);
+  EXPECT_LT(error, 0.05 * change);
+  std::printf("%d of %d frames from an earlier phase; RMS error up to %.3g kg/m², of changes up to %.3g\n",
+              static_cast<int>(moving.reusedFrames()), static_cast<int>(moving.movedFrames()), error, change);
+  CArmPose turned = geometry.pose();
+  turned.primary_angle += 0.1;
+  const auto reused = moving.reusedFrames();
+  moving.frame(XRayGeometry(turned));
+  EXPECT_EQ(moving.reusedFrames(), reused);  // another pose
+}
+
+TEST(ProgressiveProjection, WithExactMotionDoesNotDependOnEarlierPhases)
+{
+  const auto projection = std::make_shared<const VolumeProjection>(smoothBody(80, 3e-3));
+  const ProgressiveResolution still{32, 32, 1 << 20, MotionSampling::kExact};
+  ProgressiveProjection used(projection, still), fresh(projection, still);
+  const XRayGeometry geometry(heartView(0.2, 0.1, 64));
+  used.setMotion(motionAt(0.2, 0.2));
+  used.frame(geometry);
+  used.setMotion(motionAt(0.2001, 0.2));
+  fresh.setMotion(motionAt(0.2001, 0.2));
+  EXPECT_EQ(used.frame(geometry).tissue, fresh.frame(geometry).tissue);
+  EXPECT_EQ(used.reusedFrames(), 0U);
 }
 
 TEST(ProgressiveProjection, RefusesResolutionsWithoutRays)

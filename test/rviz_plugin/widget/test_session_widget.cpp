@@ -18,6 +18,7 @@
 #include <QtTest/QTest>
 
 #include "rviz_plugin/widget/force_gauge.h"
+#include "rviz_plugin/widget/motion_box.h"
 #include "test/rviz_plugin/widget/widget_test.h"
 
 namespace endovascular_sim::rviz_plugin
@@ -41,6 +42,7 @@ public:
   void setSubject(const std::string& subject) override { subjects.push_back(subject); }
   void alignExpert(std::uint8_t alignment) override { alignments.push_back(alignment); }
   void setBlood(const BloodRequest& request) override { bloods.push_back(request); }
+  void setMotion(const MotionRequest& request) override { motions.push_back(request); }
   void controlPlayer(std::uint8_t command, double value) override { played.emplace_back(command, value); }
 
   HandVelocity lastHeld() const { return held.empty() ? HandVelocity{} : held.back(); }
@@ -54,6 +56,7 @@ public:
   std::vector<std::string> subjects;
   std::vector<int> alignments;
   std::vector<BloodRequest> bloods;
+  std::vector<MotionRequest> motions;
   int confirmed = 0;
 };
 
@@ -566,6 +569,107 @@ TEST_F(SessionWidgetTest, ShowsPressureWhereBloodFlowsAndChangesTheCirculation)
   session.present.player.emplace();
   widget->refresh();
   EXPECT_FALSE(child<QPushButton>("adenosine")->isEnabled()) << "nobody changes a recording";
+}
+
+MotionStatus beating()
+{
+  MotionStatus motion;
+  motion.controls = {70.0 / 60.0, 0.25, false};
+  motion.heart_rate = 70.0 / 60.0;
+  return motion;
+}
+
+TEST_F(SessionWidgetTest, ShowsHeartAndBreathOfAPatientThatMovesOnly)
+{
+  EXPECT_FALSE(child<QPushButton>("hold_breath")->isVisible());
+  session.present.motion = beating();
+  widget->refresh();
+  EXPECT_TRUE(child<QPushButton>("hold_breath")->isVisible());
+  EXPECT_EQ(child<QSpinBox>("beats")->value(), 70);
+  EXPECT_EQ(child<QSpinBox>("breaths")->value(), 15);
+  EXPECT_EQ(child<QLabel>("phases")->text(), "Heart and breath: diastole, breathing");
+}
+
+TEST_F(SessionWidgetTest, HoldsTheBreathAndChangesTheRates)
+{
+  session.present.motion = beating();
+  widget->refresh();
+  QTest::mouseClick(child<QPushButton>("hold_breath"), Qt::LeftButton);
+  ASSERT_EQ(session.motions.size(), 1U);
+  EXPECT_EQ(session.motions[0].breath_hold, 1);
+  EXPECT_TRUE(std::isnan(session.motions[0].heart_rate) && std::isnan(session.motions[0].breathing_rate));
+  auto* beats = child<QSpinBox>("beats");
+  beats->setFocus();
+  beats->setValue(90);
+  QTest::keyClick(beats, Qt::Key_Return);
+  ASSERT_EQ(session.motions.size(), 2U);
+  EXPECT_NEAR(session.motions[1].heart_rate, 1.5, 1e-12);
+  EXPECT_TRUE(std::isnan(session.motions[1].breathing_rate));
+  EXPECT_EQ(session.motions[1].breath_hold, -1);
+  EXPECT_TRUE(widget->hasFocus());
+  auto* breaths = child<QSpinBox>("breaths");
+  breaths->setFocus();
+  breaths->setValue(12);
+  QTest::keyClick(breaths, Qt::Key_Return);
+  ASSERT_EQ(session.motions.size(), 3U);
+  EXPECT_NEAR(session.motions[2].breathing_rate, 0.2, 1e-12);
+}
+
+TEST_F(SessionWidgetTest, LetsTheBreathGo)
+{
+  session.present.motion = beating();
+  session.present.motion->controls.breath_held = true;
+  session.present.motion->is_holding = true;
+  widget->refresh();
+  EXPECT_TRUE(child<QPushButton>("hold_breath")->isChecked());
+  EXPECT_EQ(child<QLabel>("phases")->text(), "Heart and breath: diastole, breath held");
+  QTest::mouseClick(child<QPushButton>("hold_breath"), Qt::LeftButton);
+  ASSERT_EQ(session.motions.size(), 1U);
+  EXPECT_EQ(session.motions[0].breath_hold, 0);
+}
+
+TEST_F(SessionWidgetTest, NamesThePhases)
+{
+  MotionStatus motion = beating();
+  motion.systole = true;
+  motion.controls.breath_held = true;
+  EXPECT_EQ(phaseText(motion), "Heart and breath: systole, breathing out to hold");
+  motion.controls.breath_held = false;
+  motion.is_holding = true;
+  motion.heart_rate = 0.0;
+  EXPECT_EQ(phaseText(motion), "Heart and breath: arrest, breathing again");
+}
+
+TEST_F(SessionWidgetTest, LeavesTheHeartRateToTheFlowOfBlood)
+{
+  session.present.motion = beating();
+  session.present.motion->heart_rate = 2.0;
+  widget->refresh();
+  EXPECT_TRUE(child<QSpinBox>("beats")->isEnabled());
+  session.present.blood.emplace();
+  widget->refresh();
+  EXPECT_FALSE(child<QSpinBox>("beats")->isEnabled());
+  EXPECT_NE(child<QSpinBox>("beats")->toolTip().indexOf("flow of blood"), -1);
+  EXPECT_EQ(child<QSpinBox>("beats")->value(), 120) << "that of the present beat";
+  EXPECT_TRUE(child<QSpinBox>("breaths")->isEnabled());
+  session.present.player.emplace();
+  widget->refresh();
+  EXPECT_FALSE(child<QPushButton>("hold_breath")->isEnabled()) << "nobody changes a recording";
+  EXPECT_FALSE(child<QSpinBox>("breaths")->isEnabled());
+}
+
+TEST_F(SessionWidgetTest, KeepsItsWidthWithHeartAndBreath)
+{
+  const int width = widget->sizeHint().width(), least = widget->minimumSizeHint().width();
+  session.present.motion = beating();
+  widget->refresh();
+  EXPECT_EQ(widget->sizeHint().width(), width);
+  EXPECT_EQ(widget->minimumSizeHint().width(), least);
+  session.present.motion->controls = {5.0, 1.0, true};
+  session.present.motion->systole = true;
+  widget->refresh();
+  EXPECT_EQ(widget->sizeHint().width(), width);
+  EXPECT_EQ(widget->minimumSizeHint().width(), least);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void StepObserver::report(const simulation::Simulation& simulation, const Instru
     status.tip = tipPose(simulation, k);
     const Eigen::Vector3d tip(status.tip.position.x, status.tip.position.y, status.tip.position.z);
     if (locator_)
-      if (const int branch = locator_->at(simulation::restingPlace(simulation, tip)).branch; branch >= 0)
+      if (const int branch = locator_->at(simulation.atRest(tip)).branch; branch >= 0)
         status.branch = locator_->name(branch);
     status.largest_wall_force = largest_[k];
     status.state = drive::nameOf(states[k].state);
