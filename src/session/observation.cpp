@@ -17,9 +17,8 @@ Tip Observation::tip(int instrument) const
 procedure::BranchPosition Observation::branch(int instrument) const
 {
   const double insertion = hand(instrument).insertion;
-  return insertion > 0.0
-             ? world_.branches()->at(simulation_.atRest(simulation::pointAt(simulation_, insertion)))
-             : procedure::BranchPosition();
+  return insertion > 0.0 ? world_.branches()->at(simulation_.atRest(simulation::pointAt(simulation_, insertion)))
+                         : procedure::BranchPosition();
 }
 
 const flow::FlowField* Observation::blood() const
@@ -37,16 +36,15 @@ double Observation::bloodFlow(const Eigen::Vector3d& point) const
 {
   if (blood() == nullptr)
     return std::nan("");
-  return simulation_.blood()->places().flowAt(
-      *blood(), simulation_.blood()->paths().locate(simulation_.atRest(point)));
+  return simulation_.blood()->places().flowAt(*blood(), simulation_.blood()->paths().locate(simulation_.atRest(point)));
 }
 
 double Observation::bloodPressure(const Eigen::Vector3d& point) const
 {
   if (blood() == nullptr)
     return std::nan("");
-  return simulation_.blood()->places().pressureAt(
-      *blood(), simulation_.blood()->paths().locate(simulation_.atRest(point)));
+  return simulation_.blood()->places().pressureAt(*blood(),
+                                                  simulation_.blood()->paths().locate(simulation_.atRest(point)));
 }
 
 const motion::MovingPatient* Observation::motion() const

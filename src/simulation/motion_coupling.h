@@ -64,9 +64,6 @@ public:
   /** Patient after the last step: phases, and the map from the resting patient to the moved one. */
   const motion::MovingPatient& patient() const { return patient_; }
 
-  /** Advances by a step. */
-  void advance() { patient_.advance(); }
-
   void archive(Archive& archive);
 
 private:

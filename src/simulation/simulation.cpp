@@ -511,8 +511,6 @@ void Simulation::stepAll(const std::vector<drive::HandCommand>& commands)
   timer_.reset();
   PhaseTimer::Scope scope(timer_, Phase::kControl);
   setPressures(commands);
-  if (motion_)
-    motion_->advance();
   resample();
   double travel = 0.0;
   for (int k = 0; k < instruments(); ++k)

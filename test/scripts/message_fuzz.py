@@ -32,7 +32,8 @@ ROUND = 40  # messages between two examinations
 
 # Graphs that have every node and every kind of topic together: scene, arguments of sim.launch.
 GRAPHS = [("test/data/every_node.yaml", ["robot:=true", "device:={folder}/none", "baud:=250000"]),
-          ("test/data/procedure_with_balloon.yaml", ["pace:=free", "overrides:=duration=3600 flow=adult"])]
+          ("test/data/procedure_with_balloon.yaml", ["pace:=free", "overrides:=duration=3600 flow=adult"]),
+          ("test/data/catheter_in_motion.yaml", ["pace:=free", "haptic_device:=false"])]
 NOT_OURS = ("/rosout", "/robot_state_publisher")
 
 

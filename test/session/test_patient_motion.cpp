@@ -101,6 +101,14 @@ TEST(PatientMotion, WithFlowTakesNoOtherHeartRate)
   controls.heart_rate = 2.0;
   EXPECT_NE(session.refusalOf(controls).find("the flow, which drives the heart"), std::string::npos);
   EXPECT_THROW(session.setMotionControls(controls), std::invalid_argument);
+  flow::FlowControls flow = session.flowControls();
+  flow.heart_rate = 0.0;  // arrest
+  session.setFlowControls(flow);
+  session.step(100);
+  controls = session.motionControls();
+  controls.breath_held = false;
+  session.setMotionControls(controls);
+  EXPECT_FALSE(session.motionControls().breath_held);
 }
 
 TEST(PatientMotion, ContinuesFromASavedStateBitForBit)

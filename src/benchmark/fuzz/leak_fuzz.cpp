@@ -27,7 +27,7 @@ constexpr double kLargestTipMoment =
     0.02;  // largest moment that straightens a pre-curved tip [N·m]; the stiff J of peer_wire requires 0.0165
 constexpr double kSuspicious = 50e-6;    // depth in the solver that triggers a check [m]
 constexpr int kCheckInterval = 10;       // steps between checks
-constexpr int kMovedInterval = 20;      // checks between those of the whole wire in the moved mesh
+constexpr int kMovedInterval = 20;       // checks between those of the whole wire in the moved mesh
 constexpr int kBruteForceInterval = 10;  // checks between brute-force searches for one node
 constexpr double kDisagreement = 1e-9;   // largest difference of both searches [m]
 

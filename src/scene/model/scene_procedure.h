@@ -81,8 +81,8 @@ struct StepScene
    * until the breath is held. For a person the wait counts while it is set. */
   std::optional<bool> breath_held;
   bool until_diastole = false;  ///< true: a wait ends in a diastole
-  double time_limit = 30.0;  ///< duration after which the step fails [s]
-  bool any_branch = false;   ///< true: no branch counts as wrong
+  double time_limit = 30.0;     ///< duration after which the step fails [s]
+  bool any_branch = false;      ///< true: no branch counts as wrong
   RetryScene retry;
   SupportScene support;
 };

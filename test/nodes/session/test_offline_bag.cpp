@@ -20,7 +20,7 @@ namespace
 TEST(OfflineBag, OfAMovingPatientReplaysWithItsControls)
 {
   const TemporaryFolder folder;
-  const std::string file = folder.path("session.bag");
+  const std::string file = folder.file("session.bag");
   session::Session session(session::World::open(TEST_DATA_DIR "/catheter_in_motion.yaml"));
   OfflineBag bag(file, session, "");
   const auto advance = [&session, &bag](int steps)
@@ -52,7 +52,7 @@ TEST(OfflineBag, OfAMovingPatientReplaysWithItsControls)
 TEST(OfflineBag, HasTheMotionBeforeEveryStateOfTheInstruments)
 {
   const TemporaryFolder folder;
-  const std::string file = folder.path("session.bag");
+  const std::string file = folder.file("session.bag");
   session::Session session(session::World::open(TEST_DATA_DIR "/catheter_in_motion.yaml"));
   OfflineBag bag(file, session, "");
   for (int k = 0; k < 300; ++k)
