@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/text/format.h"
 #include "endovascular_sim/CArm.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
@@ -19,6 +20,7 @@
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/image_conversions.h"
 #include "nodes/conversions/message_checks.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/ros_names.h"
@@ -76,7 +78,12 @@ void RecordedPictures::addScene(const BagMessage& message)
     std::vector<Eigen::Vector3d> nodes;
     for (const geometry_msgs::Point& node : rod->nodes)
       nodes.push_back(fromMessage(node));
-    room_.setWires(toXRayWires(*rod, room_.system().instruments(), room_.system().fluids()), nodes);
+    room_.setWires(toXRayWires(*rod, room_.system().instruments(), room_.system().fluids()), nodes, rod->step);
+  }
+  else if (isTopic(message.topic, names::kMotionState) && message.is<MotionState>())
+  {
+    const auto motion = message.read<MotionState>();
+    room_.setMotion(motion->step, {fromMessage(*motion), motion->diaphragm});
   }
   else if (isTopic(message.topic, names::kTreatmentVisual) && message.is<TreatmentVisual>())
     room_.setTreatment(toXRayWires(*message.read<TreatmentVisual>(), room_.system().filling(), room_.system().metal()));
