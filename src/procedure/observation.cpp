@@ -39,6 +39,7 @@ void observePatient(const simulation::Simulation& simulation, Observation& obser
   observation.hyperaemia = simulation.blood() != nullptr && simulation.blood()->controls().hyperaemia;
   if (simulation.motion() == nullptr)
     return;
+  observation.patient_moves = true;
   const motion::MovingPatient& patient = simulation.motion()->patient();
   observation.breath_asked = patient.breath().held();
   observation.breath_held = patient.breath().standing();

@@ -40,9 +40,10 @@ struct Observation
 {
   double time = 0.0;  ///< simulated time [s]
   std::vector<InstrumentView> instruments;
-  bool hyperaemia = false;    ///< of the circulation; false without flow
-  bool breath_asked = false;  ///< true: the patient is asked to hold the breath; false without motion
-  bool breath_held = false;   ///< true: the breath is held, at the end of an expiration; false without motion
+  bool hyperaemia = false;     ///< of the circulation; false without flow
+  bool patient_moves = false;  ///< false: nobody needs to wait for breath or heart
+  bool breath_asked = false;   ///< true: the patient is asked to hold the breath; false without motion
+  bool breath_held = false;    ///< true: the breath is held, at the end of an expiration; false without motion
   HeartView heart;
 };
 

@@ -115,13 +115,13 @@ bool StepExecution::asksThePatient() const
 bool StepExecution::isAsked(const Observation& observation) const
 {
   return (!step_.hyperaemia || observation.hyperaemia == *step_.hyperaemia) &&
-         (!step_.breath_held || observation.breath_asked == *step_.breath_held);
+         (!step_.breath_held || !observation.patient_moves || observation.breath_asked == *step_.breath_held);
 }
 
 /** True if the breath is held, and the heart rests in its diastole, where the wait names them. */
 bool StepExecution::isPatientReady(const Observation& observation) const
 {
-  const bool is_held = !step_.breath_held.value_or(false) || observation.breath_held;
+  const bool is_held = !step_.breath_held.value_or(false) || !observation.patient_moves || observation.breath_held;
   return is_held && (!step_.until_diastole || setting_.guided || heartRests(observation.heart));
 }
 

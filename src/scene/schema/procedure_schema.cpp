@@ -274,9 +274,6 @@ void checkProcedure(const yaml::Fields& fields, const Scene& scene)
       fields.reject(path + "for", "'" + step.replacement + remedy);
     if (step.hyperaemia && !scene.flow)
       fields.reject(path + "hyperaemia", "needs blood that flows; give the scene the key flow, e.g. flow: adult");
-    if ((step.breath_held || step.until_diastole) && !scene.motion)
-      fields.reject(path + (step.breath_held ? "breath" : "until"),
-                    "needs a patient who moves; give the scene the key motion, e.g. motion: adult");
     checkSupport(fields, scene, k);
     if (!step.view.empty())
       checkView(fields, path + "view", step.view, scene);
