@@ -16,6 +16,9 @@ constexpr double kRate = 1.5;           // Hz
 constexpr double kBeyondEntry = 0.012;  // between the introducer and the fade [m]
 constexpr double kGuide = 0.02;         // of the introducer, before its mouth [m]
 constexpr double kLongestFacet = 4e-3;  // edges beyond count with this length: their middles are off the wall [m]
+constexpr double kGrid = 0.01;          // of the check for folds [m]
+constexpr double kLeastVolume = 0.2;    // as for scenes: least det ∇φ [1]
+constexpr double kRoundTrip = 1e-9;     // as for scenes: largest error of pulling back [m]
 constexpr int kTries = 50;
 
 Eigen::Vector3d randomDirection(FuzzRandom& random)
@@ -42,7 +45,7 @@ Eigen::Vector3d farPoint(const vessel::CentrelineTree& tree, const Eigen::Vector
   return farthest;
 }
 
-motion::MotionSettings randomSettings(const FuzzVessel& vessel, const scene::EntryPose& entry, FuzzRandom& random)
+motion::MotionSettings randomSettings(FuzzRandom& random)
 {
   motion::MotionSettings settings;
   settings.heart.rate = kRate;
@@ -51,16 +54,21 @@ motion::MotionSettings randomSettings(const FuzzVessel& vessel, const scene::Ent
   settings.heart.base_rotation = random.between(-0.1, 0.1);
   settings.heart.apex_rotation = random.between(-0.2, 0.2);
   settings.breathing.rate = 0.5;
-  const double core = random.between(1e-3, 0.03);
-  const double reach = core + settings.region.fade;
-  const Eigen::Vector3d towards =
-      (farPoint(vessel.vessel->centreline, entry.position, random) - entry.position).normalized();
-  const double distance = reach + kBeyondEntry + kGuide;
-  settings.region.centre = entry.position + distance * towards;
-  settings.region.core = core;
-  settings.region.base = *settings.region.centre - 0.04 * randomDirection(random);
-  settings.region.apex = *settings.region.base + 0.08 * randomDirection(random);
   return settings;
+}
+
+/** Heart beside the introducer: its motion begins beyond it, on the way to the far end of the vessel. */
+motion::HeartFrame randomHeart(const FuzzVessel& vessel, const scene::EntryPose& entry, FuzzRandom& random)
+{
+  motion::HeartFrame frame;
+  frame.fade.core = random.between(1e-3, 0.03);
+  frame.fade.reach = frame.fade.core + motion::kLeastFade;
+  const Eigen::Vector3d far = farPoint(vessel.vessel->centreline, entry.position, random);
+  frame.fade.centre = entry.position + (frame.fade.reach + kBeyondEntry + kGuide) * (far - entry.position).normalized();
+  frame.base = frame.fade.centre - 0.04 * randomDirection(random);
+  frame.axis = randomDirection(random);
+  frame.length = 0.08;
+  return frame;
 }
 
 }  // namespace
@@ -70,20 +78,15 @@ simulation::PatientMotion randomMotion(const FuzzVessel& vessel, const scene::En
 {
   for (int attempt = 0; attempt < kTries; ++attempt)
   {
-    const motion::MotionSettings settings = randomSettings(vessel, entry, random);
-    try
-    {
-      motion::MovingPatient patient =
-          motion::makeMovingPatient(vessel.vessel->centreline, settings, time_step, {"fuzz", ""});
-      patient.setHeartPhase(random.unit(), kRate);
-      const motion::MapBounds bounds =
-          motion::motionBounds(patient.motion(), motion::lumenPoints(vessel.vessel->centreline));
-      return {patient, bounds};
-    }
-    catch (const InputError&)
-    {
+    const motion::MotionSettings settings = randomSettings(random);
+    const motion::HeartFrame frame = randomHeart(vessel, entry, random);
+    motion::MovingPatient patient(frame, settings, time_step);
+    motion::MapBounds bounds = motion::motionBounds(patient.motion(), motion::gridOf(frame.fade, kGrid));
+    if (bounds.determinant < kLeastVolume || bounds.round_trip > kRoundTrip)
       continue;  // it folds space
-    }
+    patient.setHeartPhase(random.unit(), kRate);
+    bounds.include(motion::motionBounds(patient.motion(), motion::lumenPoints(vessel.vessel->centreline)));
+    return {patient, bounds};
   }
   throw InputError(vessel.name, "", "no motion fits");
 }
