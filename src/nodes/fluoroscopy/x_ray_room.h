@@ -9,7 +9,7 @@
 
 #include "fluoroscopy/gantry/gantry.h"
 #include "fluoroscopy/patient/progressive_projection.h"
-#include "nodes/fluoroscopy/motion_history.h"
+#include "nodes/fluoroscopy/body_motion_history.h"
 #include "simulation/fluoroscopy_system.h"
 #include "vessel/model/vessel.h"
 
@@ -96,7 +96,7 @@ private:
   fluoroscopy::Gantry gantry_;
   std::vector<fluoroscopy::XRayWire> wires_, treatment_, shown_;
   std::uint64_t step_ = 0;  ///< of wires_
-  MotionHistory motions_;
+  BodyMotionHistory motions_;
   std::optional<Eigen::Vector3d> tip_;  ///< tip of the instrument that reaches farthest [m]
   bool has_mesh_ = false;
   vessel::Vessel vessel_;  ///< vessel at rest, about which the patient is placed; empty afterwards

@@ -12,7 +12,7 @@ namespace endovascular_sim::nodes
 
 /** Motions of the patient in the last steps, so that an image shows vessel and instruments of the same step although
  * their messages arrive in any order. */
-class MotionHistory
+class BodyMotionHistory
 {
 public:
   static constexpr std::size_t kSteps = 64;  ///< about a second of states for display

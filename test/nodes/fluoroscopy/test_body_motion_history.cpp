@@ -1,4 +1,4 @@
-#include "nodes/fluoroscopy/motion_history.h"
+#include "nodes/fluoroscopy/body_motion_history.h"
 
 #include <gtest/gtest.h>
 
@@ -11,21 +11,21 @@ namespace
 
 using fluoroscopy::motionAt;
 
-TEST(MotionHistory, HoldsTheMotionOfEveryLateStep)
+TEST(BodyMotionHistory, HoldsTheMotionOfEveryLateStep)
 {
-  MotionHistory history;
+  BodyMotionHistory history;
   EXPECT_TRUE(history.at(7).resting());
   for (std::uint64_t k = 0; k < 200; ++k)
     history.add(16 * k, motionAt(0.004 * static_cast<double>(k), 0.1));
   EXPECT_EQ(history.at(16 * 190), motionAt(0.004 * 190, 0.1));
   EXPECT_EQ(history.at(16 * 190 + 15), motionAt(0.004 * 190, 0.1));  // that of this step has not arrived
   EXPECT_EQ(history.at(16 * 500), motionAt(0.004 * 199, 0.1));
-  EXPECT_EQ(history.at(16), motionAt(0.004 * (200 - MotionHistory::kSteps), 0.1));  // forgotten: the oldest
+  EXPECT_EQ(history.at(16), motionAt(0.004 * (200 - BodyMotionHistory::kSteps), 0.1));  // forgotten: the oldest
 }
 
-TEST(MotionHistory, ForgetsLaterStepsAfterAStepBack)
+TEST(BodyMotionHistory, ForgetsLaterStepsAfterAStepBack)
 {
-  MotionHistory history;
+  BodyMotionHistory history;
   for (std::uint64_t k = 0; k < 10; ++k)
     history.add(k, motionAt(0.1, 0.01 * static_cast<double>(k)));
   history.add(4, motionAt(0.6, 0.0));
