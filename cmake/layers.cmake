@@ -10,14 +10,15 @@ set(LAYERS
   "contact       : geometry                                   : fcl"
   "rod           : contact                                    : ${KLU_LIBRARY} ${CHOLMOD_LIBRARY}"
   "vessel        : geometry yaml                              : ${TINYXML_LIBRARY} ZLIB::ZLIB"
-  "flow          : vessel                                     :"
+  "contrast      : vessel                                     :"
+  "flow          : contrast                                   :"
   "motion        : contact vessel                             :"
   "segmentation  : image vessel                               :"
   "instrument    : rod                                        :"
   "intervention  : instrument vessel                          :"
   "patient       : image vessel                               :"
   "phantom       : patient                                    :"
-  "fluoroscopy   : instrument motion patient                  : PNG::PNG ${XRAYLIB_LIBRARY}"
+  "fluoroscopy   : contrast instrument motion patient         : PNG::PNG ${XRAYLIB_LIBRARY}"
   "drive         : common                                     :"
   "robot         : drive                                      :"
   "haptics       : drive                                      :"
@@ -33,7 +34,7 @@ set(LAYERS
 set(SEPARATE_FOLDERS vessel/prepare segmentation/mesh image/import robot/urdf)
 
 # The calls in these take most of the time of steps, frames and images.
-set(FAST_LAYERS geometry rod contact motion patient phantom fluoroscopy segmentation)
+set(FAST_LAYERS geometry rod contact contrast motion patient phantom fluoroscopy segmentation)
 
 # read_layer(LINE): sets `layer`, `layer_includes` and `layer_links`.
 macro(read_layer line)

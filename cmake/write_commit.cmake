@@ -1,9 +1,15 @@
-# Writes the commit of the sources into a header, and only when it has changed.
+# Writes the commit of the sources into a header, and only when it has changed. `git archive` stores it in archived_commit.txt.
 #   cmake -DSOURCE=<repository> -DHEADER=<file> -P write_commit.cmake
-execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12 --exclude=*
-  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
-if(failed)
-  set(commit "unknown")
+file(READ ${CMAKE_CURRENT_LIST_DIR}/archived_commit.txt commit)
+string(REGEX MATCH "^[0-9a-f]+" commit "${commit}")
+if(commit)
+  string(SUBSTRING ${commit} 0 12 commit)
+else()
+  execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12 --exclude=*
+    OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+  if(failed)
+    set(commit "unknown")
+  endif()
 endif()
 set(text "#define ENDOVASCULAR_SIM_COMMIT \"${commit}\"\n")
 set(previous "")

@@ -1,6 +1,9 @@
-# Shared part of `demo`: one session of the node graph, from a scene to a folder of results. Sourced by bash.
+# One session of the node graph, from a scene to a folder of results, for `catkin_ws/demo` and `endovascular_sim demo`. Sourced by
+# bash, after messages.sh.
+#
+# The caller sets `programs` (their folder), `share` (that of config and rviz), `session_folder` (that of this file) and
+# `results_folder` (where folders of results are made).
 
-programs="$workspace/devel/lib/endovascular_sim"
 # Speed of the simulated device's line [bit/s]. 1 kHz needs 230400; the faster line halves the transmission time.
 device_baud=460800
 launch_pid='' device_pid='' virtual_display_pid='' session_status=1 session_interrupted=false session_phase=starting
@@ -10,12 +13,12 @@ find_scene() {
   local wanted=$1
   if [ -f "$wanted" ]; then
     printf '%s/%s\n' "$(cd "$(dirname "$wanted")" && pwd -P)" "$(basename "$wanted")"
-  elif [ -f "$repository/config/scenes/$wanted.yaml" ]; then
-    printf '%s\n' "$repository/config/scenes/$wanted.yaml"
+  elif [ -f "$share/config/scenes/$wanted.yaml" ]; then
+    printf '%s\n' "$share/config/scenes/$wanted.yaml"
   else
     {
       echo "error: there is no scene '$wanted': neither a file of that path nor a name of config/scenes. The names there are:"
-      for file in "$repository"/config/scenes/*.yaml; do [ -f "$file" ] && echo "         $(basename "$file" .yaml)"; done
+      for file in "$share"/config/scenes/*.yaml; do [ -f "$file" ] && echo "         $(basename "$file" .yaml)"; done
     } >&2
     exit 2
   fi
@@ -25,7 +28,7 @@ find_scene() {
 prepare_results() {
   local name
   name=$(basename "$1" .yaml)
-  [ -n "$results" ] || results="$workspace/results/$name-$(date +%Y%m%d-%H%M%S)"
+  [ -n "$results" ] || results="$results_folder/$name-$(date +%Y%m%d-%H%M%S)"
   case "$results" in /*) ;; *) results="$PWD/$results" ;; esac
   if [ -e "$results/session.bag" ] || [ -e "$results/report.json" ]; then
     die "$results already holds a session: give another folder with --out, or remove that one"
@@ -268,12 +271,12 @@ origin_of_x_ray() {
 # An interruption ends the drawing.
 draw_rviz() {
   session_phase=drawing
-  local display_file="$results/log/display" config="$results/log/pictures.rviz" pictures="$workspace/lib/rviz_pictures.py"
+  local display_file="$results/log/display" config="$results/log/pictures.rviz" pictures="$session_folder/rviz_pictures.py"
   local display moments pictures_pid waited=0
   moments=$(/usr/bin/python3 "$pictures" "$results") || return 1
   [ -n "$moments" ] || { note "no instrument entered the vessel: no picture of rviz"; return 0; }
   ros_environment
-  cp "$repository/rviz/replay.rviz" "$config"
+  cp "$share/rviz/replay.rviz" "$config"
   # Phases of a procedure differ at the tip: an overview of the body shows neither the stenosis nor the stent.
   [ "$(wc -l <<< "$moments")" -eq 1 ] ||
     sed -i '/^    Current:/,/^    Saved:/{s/Overview/Tip/; s/Distance: 0$/Distance: 0.2/}' "$config"

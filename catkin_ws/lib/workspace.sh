@@ -4,10 +4,8 @@
 
 build_log="$workspace/build/build.log"
 
-say() { printf '%s\n' "== $*"; }
-note() { printf '%s\n' "   $*"; }
-warn() { printf '%s\n' "warning: $*" >&2; }
-die() { printf '%s\n' "error: $*" >&2; exit 1; }
+# shellcheck source=messages.sh
+. "$workspace/lib/messages.sh"
 
 # Refuses a path that CMake, make or catkin's generated scripts would split, before anything else happens.
 check_path() {
