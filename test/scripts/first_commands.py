@@ -1,7 +1,7 @@
 """Runs the first command of pages of the documentation literally, but for the placeholders that a page explains. An
 installation of packages is simulated by apt-get.
 
-Arguments: REPOSITORY PAGE...; exit code 1 when a command fails, or prints a warning.
+Arguments: REPOSITORY PAGE[#SECTION]...; exit code 1 when a command fails, or prints a warning.
 """
 
 import os
@@ -26,12 +26,15 @@ DOUBT = re.compile(r"\bwarn(ing)?\b", re.IGNORECASE)
 STARTED = {"roslaunch": 25.0}  # seconds for which a program that a person ends is observed
 
 
-def first_command(page):
-    """First indented line of a page that begins with a program of the project or of Debian."""
-    for line in page.read_text().splitlines():
+def first_command(page, section):
+    """First indented line of a section, or of the page, that begins with a program of the project or of Debian."""
+    text = page.read_text()
+    if section:
+        text = text[text.index("\n## %s\n" % section):]
+    for line in text.splitlines():
         if re.match(r"    (rosrun|roslaunch|catkin_ws/|sudo apt-get) ?", line):
             return re.sub(r"\s+#.*", "", line).strip()
-    raise AssertionError("%s has no command" % page)
+    raise AssertionError("%s %s has no command" % (page, section))
 
 
 def prepare(folder, repository):
@@ -79,9 +82,9 @@ def observe(folder, command, seconds):
     return output
 
 
-def check(folder, page):
-    """Runs the first command of a page."""
-    command = first_command(page)
+def check(folder, page, section):
+    """Runs the first command of a page, or of its section."""
+    command = first_command(page, section)
     for word, value in PLACEHOLDERS.items():
         command = command.replace(word, value)
     # The packages are there; a test changes no package of the machine.
@@ -100,7 +103,8 @@ def main():
         folder = pathlib.Path(name)
         prepare(folder, repository)
         for page in sys.argv[2:]:
-            check(folder, repository / page)
+            page, _, section = page.partition("#")
+            check(folder, repository / page, section)
 
 
 main()
