@@ -153,7 +153,8 @@ def make(name, entry):
         picture = pathlib.Path(folder, "picture" + (".svg" if name.endswith(".svg") else ".png"))
         if status != 0 or not picture.is_file():
             return "exit code %d\n%s" % (status, log.read_text(encoding="utf-8", errors="replace")[-3000:])
-        data = picture.read_bytes() if name.endswith(".svg") else encoded(Image.open(picture), DOCS / name)
+        as_it_is = name.endswith(".svg") or getattr(Image.open(picture), "is_animated", False)
+        data = picture.read_bytes() if as_it_is else encoded(Image.open(picture), DOCS / name)
         (DOCS / name).write_bytes(data)
     return ""
 
