@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the figures of CONTACT, PHYSICS, ARCHITECTURE, FLOW and MOTION as SVG files beside this script.
+"""Draws the figures of CONTACT, PHYSICS, ARCHITECTURE, FLOW, MOTION and CONTRAST as SVG files beside this script.
 
   docs/figures/draw.py            writes the files
   docs/figures/draw.py --check    compares the files with what it would write; exit code 1 if one differs
@@ -152,7 +152,7 @@ def layers():
         ("scene", "files, keys, instruments and vessel of a scene", "#eef3f8"),
         ("drive · robot · haptics · sensor · fluoroscopy · intervention", "what moves or sees instruments", "#eef3f8"),
         ("patient · phantom", "tissues of the body, synthetic CT and MR", "#eef3f8"),
-        ("vessel · flow · motion · segmentation · instrument", "anatomy and devices", "#eef3f8"),
+        ("vessel · contrast · flow · motion · segmentation · instrument", "anatomy and devices", "#eef3f8"),
         ("rod · contact", "mechanics; they share only contact/contract", "#eef3f8"),
         ("common · yaml · geometry · image", "errors, archives, meshes, volumes", "#f2f2f2"),
     ]
@@ -295,8 +295,67 @@ def motion_map():
     return figure
 
 
+def contrast_cells():
+    """Contrast medium: cells of the lumen with their concentrations, and a ray through them."""
+    figure, axes = canvas(7.4, 3.7, (-1.0, 13.8), (-1.6, 5.8))
+    shades = {"none": "#f7efe9", "low": "#d9cdd6", "middle": "#a795ad", "high": "#6b5a7d"}
+
+    def cell(corners, shade):
+        axes.add_patch(Polygon(corners, facecolor=shades[shade], edgecolor="none"))
+
+    aorta = [-1.2, 0.1, 1.4, 2.7, 4.0, 5.3]
+    for low, high, shade in zip(aorta, aorta[1:], ("none", "low", "low", "none", "none")):
+        cell([(-0.6, low), (1.2, low), (1.2, high), (-0.6, high)], shade)
+    branch = [1.2, 2.3, 3.4, 4.5, 5.6, 6.7]
+    for left, right, shade in zip(branch, branch[1:], ("high", "high", "middle", "middle", "low")):
+        cell([(left, 1.6), (right, 1.6), (right, 2.5), (left, 2.5)], shade)
+    for y in aorta[1:-1]:
+        axes.plot([-0.6, 1.2], [y, y], color=MARK, linewidth=1, linestyle="--")
+    for x in branch[:-1]:
+        axes.plot([x, x], [1.6, 2.5], color=MARK, linewidth=1, linestyle="--")
+    for way in ([(-0.6, -1.2), (-0.6, 5.3)], [(1.2, -1.2), (1.2, 1.6), (6.7, 1.6)], [(1.2, 5.3), (1.2, 2.5), (6.7, 2.5)]):
+        axes.plot(*zip(*way), color=WALL, linewidth=2.5)
+    axes.plot([-0.2, 0.0, 0.5, 1.9], [-1.2, 1.0, 2.0, 2.05], color=GUIDE, linewidth=4, solid_capstyle="round")
+    label(axes, 1.7, -0.2, "catheter: end and side holes", GUIDE, fontsize=9, ha="left")
+    arrow(axes, (1.65, -0.1), (0.1, 0.4), colour=GUIDE, width=0.9)
+    arrow(axes, (2.0, 2.05), (2.9, 2.05), colour="white", width=1.6)
+    arrow(axes, (4.7, 2.05), (6.3, 2.05), colour=WIRE)
+    arrow(axes, (0.3, 5.05), (0.3, 4.2), colour=WIRE)
+    label(axes, 5.5, 2.85, "flow $Q$", WIRE, fontsize=9)
+    arrow(axes, (1.6, 1.3), (0.7, 0.8), colour=MARK, connectionstyle="arc3,rad=-0.3")
+    label(axes, 1.75, 1.2, "reflux", MARK, fontsize=9, ha="left")
+    label(axes, 5.0, 0.75, "cell: volume $V$, iodine $m = cV$", fontsize=9)
+    arrow(axes, (4.6, 1.15), (4.2, 1.75), width=0.9)
+    label(axes, 2.9, 4.35, "cap: a plane normal to\nthe centreline", MARK, fontsize=9, ha="left")
+    arrow(axes, (2.8, 4.2), (1.1, 4.02), colour=MARK, width=0.9)
+
+    source, pixel = np.array([8.3, 5.2]), np.array([12.9, -0.9])
+    axes.plot(*source, "o", color="black", markersize=6)
+    label(axes, source[0], source[1] + 0.4, "focus", fontsize=9)
+    axes.add_patch(Polygon([(11.6, -1.35), (13.4, -0.1), (13.55, -0.3), (11.75, -1.55)], facecolor="#bbbbbb", edgecolor="black", linewidth=0.8))
+    label(axes, 11.45, -1.3, "pixel", fontsize=9, ha="right")
+    axes.plot(*zip(source, pixel), color="black", linewidth=0.9)
+    along = (pixel - source) / np.linalg.norm(pixel - source)
+    across = np.array([-along[1], along[0]])
+    for k, (begin, end, shade) in enumerate(((2.3, 3.3, "high"), (3.3, 4.5, "middle"))):
+        corners = [source + s * along + side * across for s, side in ((begin, -0.9), (end, -0.9), (end, 0.9), (begin, 0.9))]
+        cell(corners, shade)
+        middle = source + 0.5 * (begin + end) * along
+        label(axes, *(middle + 1.15 * across), "$c_%d$" % (k + 1), fontsize=10)
+    axes.plot(*zip(source, pixel), color="black", linewidth=0.9)
+    for s, sign in ((2.3, "−"), (3.3, "+ −"), (4.5, "+")):
+        point = source + s * along
+        axes.plot(*zip(point - 0.9 * across, point + 0.9 * across), color=MARK if s == 3.3 else WALL, linewidth=1.6,
+                  linestyle="--" if s == 3.3 else "-")
+        axes.plot(*point, "o", color=MARK, markersize=4)
+        label(axes, *(point - 1.2 * across), sign, MARK)
+    label(axes, 8.2, 0.35, "$\\int c\\,ds = \\sum_k c_k \\ell_k$", fontsize=11, ha="left")
+    return figure
+
+
 FIGURES = {"contact_features": features, "contact_distances": distances, "step": step, "layers": layers,
-           "flow_network": flow_network, "flow_steps": flow_steps, "motion_map": motion_map}
+           "flow_network": flow_network, "flow_steps": flow_steps, "motion_map": motion_map,
+           "contrast_cells": contrast_cells}
 
 
 def svg(draw):

@@ -21,7 +21,7 @@ PYBIND11_MODULE(_core, module)
   python::bindWorld(module);
   python::bindSession(module);
   python::bindRollout(module);
-  for (const char* name :
-       {"Branch", "Observation", "Reading", "Rollout", "Session", "World"})  // their public place, e.g. in pickles
+  for (const char* name : {"Branch", "Cine", "Observation", "Reading", "Rollout", "Session",
+                           "World"})  // their public place, e.g. in pickles
     module.attr(name).attr("__module__") = "endovascular_sim";
 }

@@ -4,6 +4,7 @@
 
 #include "arrays.h"
 #include "blood.h"
+#include "contrast.h"
 #include "hardware.h"
 #include "patient_motion.h"
 #include "zeroed.h"
@@ -32,6 +33,7 @@ struct Snapshot : Zeroed
   py::array_t<ForceRow> forces;
   py::dict sensors;
   py::object blood;
+  py::object contrast;
   py::object motion;
 };
 
@@ -63,6 +65,7 @@ py::object snapshotOf(const session::Observation& observation, double time_step)
                            forcesOf(observation),
                            readingsOf(observation, time_step),
                            bloodOf(observation),
+                           contrastOf(observation),
                            motionOf(observation)});
 }
 
@@ -70,6 +73,7 @@ void bindObservation(py::module_& module)
 {
   bindRows();
   bindBlood(module);
+  bindContrast(module);
   bindMotion(module);
   py::class_<Branch>(module, "Branch", "Position in the branches of the vessel.")
       .def_readonly("name", &Branch::name, "Name of the branch; \"outside\" outside of the vessel.")
@@ -86,6 +90,7 @@ void bindObservation(py::module_& module)
       .def_readonly("forces", &Snapshot::forces, "As Session.forces.")
       .def_readonly("sensors", &Snapshot::sensors, "As Session.sensors.")
       .def_readonly("blood", &Snapshot::blood, "As Session.blood.")
+      .def_readonly("contrast", &Snapshot::contrast, "As Session.contrast.")
       .def_readonly("motion", &Snapshot::motion, "As Session.motion.");
 }
 

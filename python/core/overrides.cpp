@@ -63,7 +63,7 @@ void append(const py::dict& keywords, const std::string& prefix, std::vector<std
   for (const auto& [name, value] : keywords)
   {
     const std::string key = prefix + py::str(name).cast<std::string>();
-    if (py::isinstance<py::dict>(value))
+    if (py::isinstance<py::dict>(value) && py::len(value) > 0)
       append(py::reinterpret_borrow<py::dict>(value), key + ".", texts);
     else
       texts.push_back(key + "=" + yamlOf(value, key));

@@ -6,8 +6,10 @@
 
 #include "arrays.h"
 #include "blood.h"
+#include "cine.h"
 #include "common/error.h"
 #include "common/hash.h"
+#include "contrast.h"
 #include "errors.h"
 #include "hardware.h"
 #include "observation.h"
@@ -486,7 +488,9 @@ manager. One thread at a time may use it: others raise UsageError, as every use 
   bindStates(bound);
   bindHardware(bound);
   bindBlood(bound);
+  bindContrast(bound);
   bindMotion(bound);
+  bindCine(module, bound);
   module.def("_session_of_pickle", &continued);
   module.attr("World").attr("session") = py::cpp_function(
       [](const std::shared_ptr<SharedWorld>& world, std::uint64_t seed, bool results, bool clients)

@@ -15,8 +15,8 @@ _PLACES = {
     "env": ("Env",),
     "route": ("Route",),
     "vector": ("VectorEnv",),
-    "_core": ("Blood", "Branch", "Error", "InputError", "Motion", "Observation", "Reading", "Rollout", "Session", "UsageError", "World",
-              "advance", "rollout"),
+    "_core": ("Blood", "Branch", "Cine", "Contrast", "Error", "InputError", "Motion", "Observation", "Reading", "Rollout", "Session", "UsageError",
+              "World", "advance", "rollout"),
 }
 _MODULE_OF = {name: module for module, names in _PLACES.items() for name in names}
 _MODULES = ("plots",)

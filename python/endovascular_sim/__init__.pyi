@@ -1,6 +1,8 @@
 from ._core import (
     Blood as Blood,
     Branch as Branch,
+    Cine as Cine,
+    Contrast as Contrast,
     Error as Error,
     InputError as InputError,
     Motion as Motion,

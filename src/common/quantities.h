@@ -95,11 +95,17 @@ constexpr Quantity kPressureRange{"ranges of a pressure", "Pa", D::kPressure, 10
 constexpr Quantity kHeartRate{"heart rates", "Hz", D::kFrequency, 0.4, 4.0, 0.05, 10.0};
 constexpr Quantity kBreathingRate{"breathing rates", "Hz", D::kFrequency, 0.05, 1.0, 0.01, 10.0};
 constexpr Quantity kBloodPressure{"blood pressures", "Pa", D::kPressure, 300.0, 3e4, 10.0, 1e5};
-constexpr Quantity kBloodFlow{"flows of blood", "m³/s", D::kOther, 1e-8, 5e-4, 1e-12, 5e-3};
-constexpr Quantity kStrokeVolume{"stroke volumes", "m³", D::kOther, 2e-5, 3e-4, 1e-7, 5e-3};
+constexpr Quantity kBloodFlow{"flows of blood", "m³/s", D::kVolumeFlow, 1e-8, 5e-4, 1e-12, 5e-3};
+constexpr Quantity kStrokeVolume{"stroke volumes", "m³", D::kVolume, 2e-5, 3e-4, 1e-7, 5e-3};
 constexpr Quantity kViscosity{"viscosities of blood", "Pa·s", D::kOther, 1e-3, 0.02, 1e-5, 1.0};
 constexpr Quantity kPulseTime{"parts of a heartbeat", "s", D::kTime, 5e-3, 5.0, 1e-4, 60.0};
 constexpr Quantity kWallModulus{"elasticities of vessel walls", "Pa", D::kModulus, 1e3, 1e8, 1.0, 1e12};
+
+// Contrast medium.
+constexpr Quantity kInjectionVolume{"volumes of injections", "m³", D::kVolume, 5e-7, 1.5e-4, 1e-12, 1e-3};
+constexpr Quantity kInjectionRate{"rates of injections", "m³/s", D::kVolumeFlow, 1e-7, 4e-5, 1e-12, 1e-3};
+constexpr Quantity kInjectionRise{"rises of a rate", "s", D::kTime, 0.01, 2.0, 0.0, 1000.0};
+constexpr Quantity kMediumViscosity{"viscosities of contrast media", "Pa·s", D::kOther, 1e-3, 0.03, 1e-5, 1.0};
 
 // Materials and stiffness.
 constexpr Quantity kDensity{"densities of instruments", "kg/m³", D::kDensity, 300.0, 25e3, 20.0, 1e5};

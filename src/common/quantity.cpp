@@ -55,6 +55,8 @@ const std::vector<OtherUnit>& otherUnits(Dimension dimension)
   static const std::vector<OtherUnit> energy = {{"eV", 1e-3}, {"MeV", 1e3}};
   static const std::vector<OtherUnit> concentration = {{"mgI/l", 1e-3}, {"gI/ml", 1e3}};
   static const std::vector<OtherUnit> gram_density = {{"kg/m³", 1e-3}};
+  static const std::vector<OtherUnit> volume = {{"ml", 1e-6}, {"cm³", 1e-6}, {"l", 1e-3}, {"mm³", 1e-9}};
+  static const std::vector<OtherUnit> volume_flow = {{"ml/s", 1e-6}, {"ml/min", 1e-6 / 60.0}, {"l/min", 1e-3 / 60.0}};
   static const std::vector<OtherUnit> none;
   switch (dimension)
   {
@@ -102,6 +104,10 @@ const std::vector<OtherUnit>& otherUnits(Dimension dimension)
       return concentration;
     case Dimension::kGramDensity:
       return gram_density;
+    case Dimension::kVolume:
+      return volume;
+    case Dimension::kVolumeFlow:
+      return volume_flow;
     case Dimension::kOther:
       break;
   }

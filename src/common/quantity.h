@@ -32,6 +32,8 @@ enum class Dimension
   kEnergy,
   kConcentration,
   kGramDensity,
+  kVolume,
+  kVolumeFlow,
   kOther,
 };
 

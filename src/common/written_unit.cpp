@@ -41,7 +41,9 @@ const std::vector<NamedDimension> kDimensions = {{Dimension::kLength, "length", 
                                                  {Dimension::kModulus, "modulus", "Pa"},
                                                  {Dimension::kFlexuralRigidity, "stiffness", "N·m²"},
                                                  {Dimension::kEnergy, "energy", "keV"},
-                                                 {Dimension::kConcentration, "concentration", "mgI/ml"}};
+                                                 {Dimension::kConcentration, "concentration", "mgI/ml"},
+                                                 {Dimension::kVolume, "volume", "m³"},
+                                                 {Dimension::kVolumeFlow, "volume per time", "m³/s"}};
 
 void replaceAll(std::string& text, const std::string& from, const std::string& to)
 {

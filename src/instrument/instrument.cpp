@@ -29,6 +29,15 @@ std::optional<PressureLine> pressureLineOf(const Instrument& instrument)
   return instrument.pressure_line || !is_open ? instrument.pressure_line : PressureLine();
 }
 
+std::vector<double> openingsOf(const Instrument& instrument)
+{
+  std::vector<double> openings = {0.0};
+  if (instrument.side_holes)
+    for (int k = 0; k < instrument.side_holes->count; ++k)
+      openings.push_back(instrument.side_holes->from_tip + k * instrument.side_holes->spacing);
+  return openings;
+}
+
 double crossingRadius(const Instrument& instrument)
 {
   double radius = 0.0;

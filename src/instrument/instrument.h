@@ -48,6 +48,14 @@ struct PressureLine
   double damping = 0.3;             ///< damping ratio [1]
 };
 
+/** Holes in the side of a shaft, through which contrast medium leaves beside the end hole. */
+struct SideHoles
+{
+  double from_tip = 0.0;  ///< distance of the first one from the tip [m]
+  double spacing = 0.0;   ///< distance between two of them [m]
+  int count = 0;
+};
+
 /** Interventional device: mechanics of the shaft, radiopacity, balloon and stent. */
 struct Instrument
 {
@@ -59,11 +67,15 @@ struct Instrument
   std::vector<Marker> markers;      ///< in any order
   std::optional<Balloon> balloon;   ///< set for a balloon catheter
   std::optional<PressureLine> pressure_line;  ///< empty: the usual one for a shaft with a lumen, else none
+  std::optional<SideHoles> side_holes;        ///< empty: the end hole alone
   std::optional<Stent> stent;                 ///< crimped on the centre of the balloon, or the bare stent
 };
 
 /** Pressure line of an instrument: its own one, or the usual one of a catheter; none for a wire without a sensor. */
 std::optional<PressureLine> pressureLineOf(const Instrument& instrument);
+
+/** Distances from the tip at which contrast medium leaves an instrument: its end hole and its side holes [m]. */
+std::vector<double> openingsOf(const Instrument& instrument);
 
 /** Crossing profile as a radius [m]: the largest of the sections, the folded balloon and the crimped stent. */
 double crossingRadius(const Instrument& instrument);

@@ -37,6 +37,11 @@ namespace
 void observePatient(const simulation::Simulation& simulation, Observation& observation)
 {
   observation.hyperaemia = simulation.blood() != nullptr && simulation.blood()->controls().hyperaemia;
+  if (simulation.contrast() != nullptr)
+  {
+    observation.is_injecting = simulation.contrast()->injector().isActive();
+    observation.injected_volume = simulation.contrast()->injectedVolume();
+  }
   if (simulation.motion() == nullptr)
     return;
   observation.patient_moves = true;

@@ -45,6 +45,8 @@ struct Observation
   bool breath_asked = false;   ///< true: the patient is asked to hold the breath; false without motion
   bool breath_held = false;    ///< true: the breath is held, at the end of an expiration; false without motion
   HeartView heart;
+  bool is_injecting = false;     ///< contrast medium is injected; false in a scene without
+  double injected_volume = 0.0;  ///< of contrast medium since the beginning of the run [m³]
 };
 
 /** Length from the tip of an instrument to the proximal end of its foremost curve; 0 for a straight instrument [m]. */

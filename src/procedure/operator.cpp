@@ -85,6 +85,13 @@ std::optional<bool> Operator::wantedBreathHold() const
   return asksThePatient() ? step().breath_held : std::nullopt;
 }
 
+std::optional<contrast::Injection> Operator::takeInjection()
+{
+  if (!std::exchange(injects_, false))
+    return std::nullopt;
+  return scene_.contrast->injection(step().volume, step().rate, step().rise);
+}
+
 void Operator::observe(const Observation& observation)
 {
   if (progress_ != Progress::kRunning)
@@ -115,6 +122,7 @@ void Operator::begin(const Observation& observation)
   record.begin = record.end = observation.time;
   records_.push_back(record);
   execution_.begin(observation, hands_);
+  injects_ = step().action == scene::StepAction::kInject && !scene_.procedure->guided;
 }
 
 /** Prepares the execution of the current step. */

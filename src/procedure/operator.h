@@ -60,6 +60,9 @@ public:
   /** Breath-hold that the scripted operator sets in the present step, in the same way. */
   std::optional<bool> wantedBreathHold() const;
 
+  /** Injection of contrast medium that the scripted operator begins before the present step; once, then empty. */
+  std::optional<contrast::Injection> takeInjection();
+
   Progress progress() const { return progress_; }
   /** Description of the failure: step, reason, position of the tip; empty without a failure. */
   const std::string& failure() const { return failure_; }
@@ -95,6 +98,7 @@ private:
   StepExecution execution_;  ///< of the current step
   Progress progress_ = Progress::kRunning;
   std::string failure_;
+  bool injects_ = false;  ///< the injection of the step is to begin
 };
 
 }  // namespace endovascular_sim::procedure

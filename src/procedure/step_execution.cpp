@@ -12,16 +12,17 @@ namespace endovascular_sim::procedure
 namespace
 {
 
-constexpr double kPressureShare = 0.9;    // share of the pressure that a person has to reach
-constexpr double kAmbientPressure = 1e4;  // pressure of an empty balloon that a person need not reach [Pa]
-constexpr double kSlowdownShare = 0.6;    // share of the force limit from which the operator slows down
-constexpr double kProgress = 2e-3;        // displacement of the tip that counts as progress [m]
-constexpr double kModeLimit = 8.0;        // time limit of each mode of a recovery [s]
-constexpr double kPullBackSpeed = 0.02;   // speed of pulling back [m/s]
-constexpr double kFastestTurn = 2.0;      // of a retry [rad/s]
-constexpr double kRestBegin = 1.0 / 3.0;  // share of diastole after which the heart rests
-constexpr double kRestEnd = 0.75;         // share of diastole before the contraction of the atria
-constexpr double kRecoveryDepth = 0.05;   // distance of the tip behind the tip of the support after its withdrawal [m]
+constexpr double kPressureShare = 0.9;         // share of the pressure that a person has to reach
+constexpr double kInjectedShare = 1.0 - 1e-9;  // of the volume of an injection, up to rounding
+constexpr double kAmbientPressure = 1e4;       // pressure of an empty balloon that a person need not reach [Pa]
+constexpr double kSlowdownShare = 0.6;         // share of the force limit from which the operator slows down
+constexpr double kProgress = 2e-3;             // displacement of the tip that counts as progress [m]
+constexpr double kModeLimit = 8.0;             // time limit of each mode of a recovery [s]
+constexpr double kPullBackSpeed = 0.02;        // speed of pulling back [m/s]
+constexpr double kFastestTurn = 2.0;           // of a retry [rad/s]
+constexpr double kRestBegin = 1.0 / 3.0;       // share of diastole after which the heart rests
+constexpr double kRestEnd = 0.75;              // share of diastole before the contraction of the atria
+constexpr double kRecoveryDepth = 0.05;  // distance of the tip behind the tip of the support after its withdrawal [m]
 
 using scene::StepAction;
 
@@ -52,6 +53,7 @@ void StepExecution::begin(const Observation& observation, OperatorHands& hands)
   mode_ = Mode::kExecute;
   reached_since_ = lost_since_ = -1.0;
   begin_time_ = progress_time_ = observation.time;
+  begin_injected_ = observation.injected_volume;
   if (active_ < 0)
     return;
   const InstrumentView& view = at(observation, active_);
@@ -94,8 +96,16 @@ bool StepExecution::hasPressure(const InstrumentView& view) const
                               : view.hand.pressure <= kPressureShare * step_.pressure + kAmbientPressure;
 }
 
+/** True if the volume of the step has been injected since its beginning. */
+bool StepExecution::hasInjected(const Observation& observation) const
+{
+  return observation.injected_volume - begin_injected_ >= kInjectedShare * step_.volume;
+}
+
 bool StepExecution::isReached(const Observation& observation) const
 {
+  if (step_.action == StepAction::kInject)
+    return hasInjected(observation);
   if (setting_.guided && step_.action == StepAction::kInflate)
     return hasPressure(at(observation, active_));
   if (setting_.guided && asksThePatient())
@@ -160,6 +170,8 @@ bool StepExecution::isGoalReachedBy(const InstrumentView& view) const
 
 Progress StepExecution::act(const Observation& observation, OperatorHands& hands, int& retries)
 {
+  if (step_.action == StepAction::kInject && !setting_.guided)
+    return inject(observation);
   if (active_ < 0 || setting_.guided || step_.action == StepAction::kInflate)
     return Progress::kRunning;
   const InstrumentView& view = at(observation, active_);
@@ -191,6 +203,18 @@ Progress StepExecution::act(const Observation& observation, OperatorHands& hands
   return Progress::kRunning;
 }
 
+/** Waits for the end of the operator's injection, which begins with the step. */
+Progress StepExecution::inject(const Observation& observation)
+{
+  const bool has_begun = observation.time > begin_time_;
+  if (!has_begun || observation.is_injecting)
+    return Progress::kRunning;
+  return fail(at(observation, active_),
+              formatted("%.2g of %.2g ml were injected: no opening of ",
+                        1e6 * (observation.injected_volume - begin_injected_), 1e6 * step_.volume) +
+                  step_.instrument + " was in the vessel");
+}
+
 void StepExecution::execute(const InstrumentView& view, OperatorHand& hand) const
 {
   const scene::HandScene& limits = setting_.hand;
@@ -217,6 +241,7 @@ void StepExecution::execute(const InstrumentView& view, OperatorHand& hand) cons
     case StepAction::kInflate:
     case StepAction::kExchange:
     case StepAction::kWait:
+    case StepAction::kInject:
       break;
   }
 }
@@ -337,8 +362,8 @@ Progress StepExecution::fail(const InstrumentView& view, const std::string& why)
 
 void StepExecution::archive(Archive& archive)
 {
-  archive(mode_, begin_time_, begin_insertion_, begin_rotation_, reached_since_, lost_since_, progress_time_,
-          progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
+  archive(mode_, begin_time_, begin_insertion_, begin_rotation_, begin_injected_, reached_since_, lost_since_,
+          progress_time_, progress_insertion_, progress_tip_, mode_insertion_, mode_rotation_, mode_time_);
 }
 
 }  // namespace endovascular_sim::procedure

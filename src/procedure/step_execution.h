@@ -77,6 +77,8 @@ private:
   bool heartRests(const HeartView& heart) const;
   bool isGoalReachedBy(const InstrumentView& view) const;
   bool hasPressure(const InstrumentView& view) const;
+  bool hasInjected(const Observation& observation) const;
+  Progress inject(const Observation& observation);
   bool isWrongBranch(int branch) const;
   bool isSupportPosition(const InstrumentView& view) const;
   bool hasLostSupport(const Observation& observation);
@@ -102,10 +104,11 @@ private:
   int losses_ = 0;  ///< earlier losses of the support
   Mode mode_ = Mode::kExecute;
   double begin_time_ = 0.0, begin_insertion_ = 0.0, begin_rotation_ = 0.0;
-  double reached_since_ = -1.0;                             ///< time of reaching the goal; negative: not reached [s]
-  double lost_since_ = -1.0;                                ///< time of losing the support; negative: not lost [s]
-  double progress_time_ = 0.0, progress_insertion_ = 0.0;   ///< time and insertion at the last progress
-  Eigen::Vector3d progress_tip_ = Eigen::Vector3d::Zero();  ///< tip at the last progress [m]
+  double begin_injected_ = 0.0;                            ///< volume of contrast medium injected before the step [m³]
+  double reached_since_ = -1.0;                            ///< time of reaching the goal; negative: not reached [s]
+  double lost_since_ = -1.0;                               ///< time of losing the support; negative: not lost [s]
+  double progress_time_ = 0.0, progress_insertion_ = 0.0;  ///< time and insertion at the last progress
+  Eigen::Vector3d progress_tip_ = Eigen::Vector3d::Zero();               ///< tip at the last progress [m]
   double mode_insertion_ = 0.0, mode_rotation_ = 0.0, mode_time_ = 0.0;  ///< state at the start of the mode
   std::string failure_;
 };

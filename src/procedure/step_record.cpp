@@ -46,6 +46,8 @@ std::string nameOf(const scene::StepScene& step)
       return goalOf("rotate", step);
     case StepAction::kInflate:
       return "inflate " + step.instrument + formatted(" to %.1f atm", step.pressure / units::kAtmosphere);
+    case StepAction::kInject:
+      return formatted("inject %.1f ml through ", 1e6 * step.volume) + step.instrument;
     case StepAction::kExchange:
     case StepAction::kWait:
       break;

@@ -78,6 +78,10 @@ std::string summary(const Json& json)
   table.add({"procedure time", number("%.1f s", json["procedure_time"])});
   table.add({"fluoroscopy time (while a handle moves)", number("%.1f s", json["fluoroscopy_time"])});
   table.add({"instrument exchanges", number("%.0f", json["instrument_exchanges"])});
+  if (json.contains("contrast"))
+    table.add({"contrast medium",
+               number("%.1f ml", 1e6 * json["contrast"]["injected_volume"].get<double>()) +
+                   number(" with %.2f g of iodine", 1e3 * json["contrast"]["injected_iodine"].get<double>())});
   const Json& forces = json["wall_forces"];
   if (!forces.is_null())
   {

@@ -6,8 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/contrast_use.h"
 #include "results/session_sample.h"
 #include "results/wall_force_report.h"
+#include "simulation/instrument_tip.h"
 
 namespace endovascular_sim::results
 {
@@ -125,16 +127,6 @@ void RunResult::addHands(const simulation::Simulation& simulation)
   hand_torque_.add(torque);
 }
 
-int firstInsertedNode(const simulation::Simulation& simulation)
-{
-  const rod::Discretisation& wire = simulation.discretisation();
-  int node = simulation.state().first_node;
-  while (simulation.hasIntroducer() && node < wire.nodes() &&
-         simulation.state().inserted_length - (wire.length() - wire.position[node]) < 0.0)
-    ++node;
-  return node;
-}
-
 void RunResult::checkOutside(const simulation::Simulation& simulation, const contact::Detector& wall)
 {
   int outside = 0;
@@ -144,7 +136,7 @@ void RunResult::checkOutside(const simulation::Simulation& simulation, const con
     for (Clearance& clearance : clearances_)
       clearance.distance = 0.0;
   wall_version_ = wall.vesselVersion();
-  for (int i = firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+  for (int i = simulation::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
   {
     const Eigen::Vector3d& position = positions[i];
     Clearance& clearance = clearances_[i];
@@ -218,6 +210,8 @@ std::string RunResult::json(const simulation::Simulation& simulation, const Wall
       {"trajectory_hash", Hash64::toHex(simulation.trajectoryHash())},
       {"scene_hash", Hash64::toHex(scene_hash_)},
       {"mesh_hash", Hash64::toHex(mesh_hash_)}};
+  if (simulation.contrast() != nullptr)
+    json["contrast"] = toJson(contrastUseOf(simulation));
   return json.dump(2) + "\n";
 }
 

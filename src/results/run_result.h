@@ -86,7 +86,4 @@ private:
   std::string treatment_ = "null";  ///< outcome of balloons and stents as JSON
 };
 
-/** Index of the first node beyond the plane of the introducer; without an introducer, of the first node. */
-int firstInsertedNode(const simulation::Simulation& simulation);
-
 }  // namespace endovascular_sim::results

@@ -430,6 +430,8 @@ Json SessionMetrics::json() const
   json["lesions"] = toJson(lesions_);
   if (const PressureCourse course = pressure(); !course.empty())
     json["pressure"] = course.json(scene_);
+  if (contrast_)
+    json["contrast"] = toJson(*contrast_);
   json["errors"] = errorsJson();
   json["simulator_faults"] = faultsJson();
   if (!notes_.remarks.empty())

@@ -13,6 +13,7 @@
 #include "procedure/branch_locator.h"
 #include "procedure/operator.h"
 #include "procedure/support_watch.h"
+#include "results/contrast_use.h"
 #include "results/pressure_course.h"
 #include "results/recording_notes.h"
 #include "results/session_sample.h"
@@ -84,6 +85,8 @@ public:
   const std::optional<WallForceSummary>& wallForces() const { return wall_forces_; }
   const std::vector<LesionOutcome>& lesions() const { return lesions_; }
   void setLesions(std::vector<LesionOutcome> lesions) { lesions_ = std::move(lesions); }
+  /** Sets the contrast medium of the session up to now; without this call there was none. */
+  void setContrast(const ContrastUse& use) { contrast_ = use; }
   /** Sets what the recording holds beside the motion: remarks of a teacher, and steps that are missing in it. */
   void setNotes(RecordingNotes notes) { notes_ = std::move(notes); }
   /** Adds the mean pressures of a beat; those of the newest one change nothing. @pre the scene has the key `flow` */
@@ -139,6 +142,7 @@ private:
   std::optional<WallForceSummary> wall_forces_;
   std::vector<LesionOutcome> lesions_;
   PressureCourse pressure_;
+  std::optional<ContrastUse> contrast_;
   std::vector<SessionError> errors_;
   RecordingNotes notes_;
   std::vector<bool> ahead_;            ///< for each instrument: true if its tip is ahead of all guidewires

@@ -114,7 +114,7 @@ void WallForceMap::add(const std::vector<simulation::WallContact>& contacts, dou
     const int region = regionOf(contact);
     add(whole_, contact, region, force, dt);
     add(accountOf(region), contact, region, force, dt);
-    const contact::FacetForces::Shares shares = facets_.divide(contact.normal_force, contact.touched);
+    const contact::FacetForces::Shares shares = facets_.divide(contact.resting_force, contact.touched);
     for (std::size_t k = 0; k < shares.count; ++k)
       add(shares.share[k], dt);
     if (shares.count == 0)

@@ -22,7 +22,7 @@ const std::string kStentSystem =
     "{name: b, kind: balloon_catheter, inner_radius: 5e-4,"
     " sections: [{length: 0.5, radius: 7e-4, material: polymer, density: 1200, young_modulus: 1e9, poisson_ratio: "
     "0.3}],"
-    " markers: [{from_tip: 0.01, length: 1e-3}], pressure_line: {},"
+    " markers: [{from_tip: 0.01, length: 1e-3}], pressure_line: {}, side_holes: {count: 2, spacing: 5e-3},"
     " balloon: {from_tip: 0.005, length: 0.02, folded_diameter: 1e-3, compliance: [[6e5, 2.8e-3], [1.6e6, 3.2e-3]],"
     " nominal_pressure: 1e6, rated_burst_pressure: 1.6e6, burst_pressure: 2e6, inflation_time: 1, deflation_time: 1},"
     " stent: {crimped_diameter: 1e-3, nominal_diameter: 3e-3, strut_thickness: 8e-5, recoil: 0.05,"
@@ -70,7 +70,9 @@ const std::vector<std::string> kScenes = {
         ", drive: {source: procedure, initial_insertion: -0.1, limits: {}}}\n"
         "procedure:\n  branches: [{name: a, at: [0, 0, 0]}]\n  steps:\n"
         "    - {advance: w, until: {tip_in: tube}}\n    - {rotate: w, until: {turned: 1}}\n    - {wait: 1}\n"
-        "    - {inflate: b, pressure: 1e6, for: 1}\n",
+        "    - {inflate: b, pressure: 1e6, for: 1}\n    - {inject: b, volume: 1e-6, rate: 1e-6}\n"
+        "flow: {circulation: {outlets: {territories: [{branch: tube, share: 0.5}]}}}\n"
+        "contrast: {injections: [{at: 0, volume: 1e-6, rate: 1e-6}]}\n",
 };
 
 /** Path of a key in a scene with one instrument. */

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "simulation/fluoroscopy_system.h"
 #include "simulation/instrument_tip.h"
 
 namespace endovascular_sim::session
@@ -45,6 +47,24 @@ double Observation::bloodPressure(const Eigen::Vector3d& point) const
     return std::nan("");
   return simulation_.blood()->places().pressureAt(*blood(),
                                                   simulation_.blood()->paths().locate(simulation_.atRest(point)));
+}
+
+std::optional<ContrastState> Observation::contrast() const
+{
+  if (simulation_.contrast() == nullptr)
+    return std::nullopt;
+  const simulation::ContrastInjections& injections = *simulation_.contrast();
+  simulation::ContrastMedium medium = simulation::contrastMedium(simulation_);
+  ContrastState state;
+  state.cells = std::move(medium.cells);
+  state.instruments = std::move(medium.instruments);
+  state.rate = injections.rate();
+  state.remaining = injections.injector().left();
+  state.syringe = injections.injector().content();
+  state.volume = injections.injectedVolume();
+  if (blood() != nullptr)
+    state.iodine = blood()->totals;
+  return state;
 }
 
 const motion::MovingPatient* Observation::motion() const

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,18 @@ struct Tip
   Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< patient frame; the introducer if the tip is outside [m]
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< columns tangent, d1, d2 of the material, patient frame
   double rotation = 0.0;  ///< of the material about the centreline, as that of the handle [rad]
+};
+
+/** Contrast medium after a step. */
+struct ContrastState
+{
+  std::vector<double> cells;        ///< iodine in each cell of the vessel [kg/m³]; empty while there is none
+  std::vector<double> instruments;  ///< iodine in the lumen of each instrument [kg/m³]; empty while there is none
+  double rate = 0.0;                ///< present one of the injection [m³/s]
+  double remaining = 0.0;           ///< of the present injection [m³]
+  double syringe = 0.0;             ///< what it holds [m³]
+  double volume = 0.0;              ///< injected since the beginning of the run [m³]
+  flow::IodineTotals iodine;        ///< injected, inside the vessel, and left [kg]
 };
 
 /** Observation of a session after its last step. It copies nothing and computes a quantity when it is asked for.
@@ -76,6 +89,9 @@ public:
 
   /** Pressure of the blood at a point of the vessel [Pa]; NaN as pressure(). @param point patient frame [m] */
   double bloodPressure(const Eigen::Vector3d& point) const;
+
+  /** Contrast medium; empty in a scene without the key `contrast`. */
+  std::optional<ContrastState> contrast() const;
 
   /** Motion of the patient: phases, and the map from the resting patient to the moved one; null in a scene without the
    *  key `motion`. */

@@ -8,7 +8,7 @@ namespace endovascular_sim::session
 {
 
 PhasePictures::PhasePictures(const World& world, const std::string& folder)
-  : image_(world.scene(), world.patient().projection), folder_(folder + "/fluoroscopy")
+  : image_(world), folder_(folder + "/fluoroscopy")
 {
   createFolder(folder_);
 }

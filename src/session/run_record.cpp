@@ -50,6 +50,8 @@ void RunRecord::finish(const simulation::Simulation& simulation, const procedure
       metrics_->addEvent(simulation::nameOf(event.event), event.instrument, event.time);
     lesions = results::lesionOutcomes(*world_->vessel(), wall, results::openedStents(simulation));
     metrics_->setLesions(lesions);
+    if (simulation.contrast() != nullptr)
+      metrics_->setContrast(results::contrastUseOf(simulation));
   }
   if (simulation::hasBalloon(*scene_))
     result_.setTreatment(*scene_, simulation, lesions);

@@ -100,7 +100,7 @@ struct Session::Run
 /** X-ray system of a session. */
 struct Session::Imaging
 {
-  explicit Imaging(const World& world) : image(world.scene(), world.patient().projection) {}
+  explicit Imaging(const World& world) : image(world) {}
 
   StillImage image;
   std::uint64_t wall = kNoWall;  ///< version of the wall in it
@@ -226,6 +226,22 @@ void Session::setWantedControls()
     controls.breath_held = *wanted;
     run.simulation.motion()->setControls(controls);
   }
+  beginWantedInjection();
+}
+
+/** Begins what the operator injects, in place of what is injected now. The syringe is filled where it holds too little.
+ */
+void Session::beginWantedInjection()
+{
+  Run& run = this->run();
+  const std::optional<contrast::Injection> wanted = run.scripted->takeInjection();
+  if (!wanted || run.simulation.contrast() == nullptr)
+    return;
+  if (run.simulation.contrast()->injector().isActive())
+    run.simulation.stopInjection();
+  const bool refill = run.simulation.contrast()->injector().content() < wanted->volume;
+  if (run.simulation.refusalOf(*wanted, refill).empty())
+    run.simulation.inject(*wanted, refill);
 }
 
 const std::vector<drive::HandCommand>* Session::scriptedCommands()
@@ -392,6 +408,26 @@ void Session::setMotionControls(const motion::MotionControls& controls)
   run().simulation.motion()->setControls(controls);
 }
 
+void Session::inject(const contrast::Injection& injection, bool refill)
+{
+  run().simulation.inject(injection, refill);
+}
+
+void Session::stopInjection()
+{
+  run().simulation.stopInjection();
+}
+
+void Session::refillSyringe()
+{
+  run().simulation.refillSyringe();
+}
+
+std::string Session::refusalOf(const contrast::Injection& injection, bool refill) const
+{
+  return run().simulation.refusalOf(injection, refill);
+}
+
 const std::vector<drive::HandCommand>& Session::executedCommands() const
 {
   return run().executed;
@@ -421,8 +457,7 @@ const fluoroscopy::Frame& Session::image(const std::string& view)
   Run& run = this->run();
   imaging_->image.setView(view);
   imaging_->image.restart();
-  const intervention::DeformableWall* deformable = deformableWall();
-  const std::uint64_t version = deformable != nullptr ? deformable->version() : 0;
+  const std::uint64_t version = wallVersion();
   const bool moved = std::exchange(imaging_->wall, version) != version;
   return imaging_->image.frame(run.simulation, moved ? &wall() : nullptr);
 }
@@ -431,6 +466,12 @@ const fluoroscopy::Frame& Session::image(const std::string& view)
 const intervention::DeformableWall* Session::deformableWall() const
 {
   return settings_.wall ? settings_.wall.get() : run().wall.get();
+}
+
+std::uint64_t Session::wallVersion() const
+{
+  const intervention::DeformableWall* deformable = deformableWall();
+  return deformable != nullptr ? deformable->version() : 0;
 }
 
 const geometry::TriangleMesh& Session::wall() const

@@ -8,6 +8,7 @@
 
 #include "common/progress.h"
 #include "contact/contract/contact_set.h"
+#include "contrast/injection/injection.h"
 #include "drive/hand_control.h"
 #include "flow/coupling/flow_source.h"
 #include "fluoroscopy/fluoroscope.h"
@@ -144,6 +145,23 @@ public:
   std::string refusalOf(const motion::MotionControls& controls) const;
   /** @} */
 
+  // ---------------------------------------------------------------------------------------------- contrast medium
+
+  /** Begins an injection with the next step of the flow.
+   *  @param refill the syringe is filled before
+   *  @throws std::logic_error for a scene without the key `contrast`
+   *  @throws std::invalid_argument for one that refusalOf() refuses; nothing changes */
+  void inject(const contrast::Injection& injection, bool refill = false);
+
+  /** Ends the present injection; the rest stays in the syringe. @throws std::logic_error as inject() */
+  void stopInjection();
+
+  /** Ends the present injection, and fills the syringe. @throws std::logic_error as inject() */
+  void refillSyringe();
+
+  /** Reason for which inject() would refuse an injection now, with the remedy; empty without one. */
+  std::string refusalOf(const contrast::Injection& injection, bool refill = false) const;
+
   // -------------------------------------------------------------------------------------- faults and random errors
 
   /** Commands that the handles followed in the last step, after all faults; none before the first one. */
@@ -190,6 +208,9 @@ public:
   /** Present wall of the vessel, deformed by a balloon in this process; empty without a vessel. With a wall of another
    *  process, the initial one. */
   const geometry::TriangleMesh& wall() const;
+
+  /** Version of that wall: equal numbers in one run mean equal walls. */
+  std::uint64_t wallVersion() const;
 
   // ----------------------------------------------------------------------------------------------------------- saving
 
@@ -265,6 +286,7 @@ private:
   void requireValid(const std::vector<drive::HandCommand>& commands) const;
   void advance(const std::vector<drive::HandCommand>& commands);
   void setWantedControls();
+  void beginWantedInjection();
 
   std::shared_ptr<const World> world_;
   SessionSettings settings_;

@@ -1,26 +1,28 @@
 #include "session/still_image.h"
 
+#include <memory>
 #include <optional>
-#include <utility>
 
 #include "common/error.h"
 #include "fluoroscopy/gantry/view.h"
 #include "fluoroscopy/patient/progressive_projection.h"
 #include "scene/file_search.h"
+#include "session/contrast_picture.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::session
 {
 
-StillImage::StillImage(const scene::Scene& scene, std::shared_ptr<const fluoroscopy::VolumeProjection> patient)
-  : system_(scene, fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml")),
+StillImage::StillImage(const World& world)
+  : world_(world),
+    system_(world.scene(), fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml")),
     scene_pose_(system_.fluoroscope().geometry().pose()),
     pose_(scene_pose_),
-    at_tip_(scene.fluoroscopy->follow_tip || !scene.fluoroscopy->isocentre)
+    at_tip_(world.scene().fluoroscopy->follow_tip || !world.scene().fluoroscopy->isocentre)
 {
-  if (patient)
+  if (world.patient().projection)
     system_.fluoroscope().setPatient(
-        std::make_unique<fluoroscopy::ProgressiveProjection>(std::move(patient), simulation::kStillResolution));
+        std::make_unique<fluoroscopy::ProgressiveProjection>(world.patient().projection, simulation::kStillResolution));
 }
 
 void StillImage::setView(const std::string& name)
@@ -42,6 +44,7 @@ const fluoroscopy::Frame& StillImage::frame(const simulation::Simulation& simula
   system_.fluoroscope().setPose(pose_);
   if (wall != nullptr)
     system_.fluoroscope().setVessel(*wall);
+  setContrast(world_, simulation, system_);
   system_.fluoroscope().setMotion(simulation::bodyMotion(simulation));
   return system_.fluoroscope().render(system_.wires(simulation));
 }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "fluoroscopy/patient/volume_projection.h"
 #include "geometry/triangle_mesh.h"
+#include "session/world.h"
 #include "simulation/fluoroscopy_system.h"
 #include "simulation/simulation.h"
 
@@ -17,10 +16,9 @@ namespace endovascular_sim::session
 class StillImage
 {
 public:
-  /** @param scene scene with fluoroscopy
-   *  @param patient of the scene; null without one
-   *  @throws InputError if the scene has no fluoroscopy */
-  StillImage(const scene::Scene& scene, std::shared_ptr<const fluoroscopy::VolumeProjection> patient);
+  /** @param world with fluoroscopy, which must outlive this
+   *  @throws InputError if the scene has no fluoroscopy, or its patient cannot be loaded */
+  explicit StillImage(const World& world);
 
   /** Sets the angles of a view in clinical notation (fluoroscopy::parseView()).
    *  @param view empty: the angles of the scene
@@ -35,6 +33,7 @@ public:
   const fluoroscopy::Frame& frame(const simulation::Simulation& simulation, const geometry::TriangleMesh* wall);
 
 private:
+  const World& world_;
   simulation::FluoroscopySystem system_;
   fluoroscopy::CArmPose scene_pose_, pose_;
   bool at_tip_;

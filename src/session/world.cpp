@@ -126,9 +126,22 @@ const flow::FlowEngine& World::flow() const
 {
   if (!scene_.flow || !vessel_)
     throw std::logic_error("World: the scene has no flow");
-  std::call_once(flow_known_, [this]
-                 { flow_ = std::make_unique<const flow::FlowEngine>(simulation::makeFlowEngine(scene_, *vessel_)); });
+  std::call_once(flow_known_,
+                 [this]
+                 {
+                   flow_ = std::make_unique<const flow::FlowEngine>(
+                       simulation::makeFlowEngine(scene_, *vessel_, scene_.contrast ? &contrastVessel() : nullptr));
+                 });
   return *flow_;
+}
+
+const simulation::ContrastVessel& World::contrastVessel() const
+{
+  if (!scene_.contrast || !scene_.flow || !vessel_)
+    throw std::logic_error("World: the scene has no contrast medium");
+  std::call_once(contrast_known_,
+                 [this] { contrast_vessel_ = std::make_unique<const simulation::ContrastVessel>(scene_, *vessel_); });
+  return *contrast_vessel_;
 }
 
 std::shared_ptr<const simulation::BloodVessel> World::bloodVessel() const

@@ -99,6 +99,14 @@ public:
    *  @throws InputError for a vessel whose centreline is no tree */
   const flow::FlowEngine& flow() const;
 
+  /** Lumen of the vessel in cells of contrast medium, prepared by the first call.
+   *  @throws std::logic_error for a scene without the key `contrast`
+   *  @throws InputError as flow() */
+  const simulation::ContrastVessel& contrastVessel() const;
+
+  /** Parts of that lumen. */
+  const std::shared_ptr<const contrast::LumenCells>& lumen() const { return contrastVessel().lumen; }
+
   /** Tree of the vessel for couplings with the flow; as flow(). */
   std::shared_ptr<const simulation::BloodVessel> bloodVessel() const;
 
@@ -127,10 +135,11 @@ private:
   scene::EntryPose entry_;
   mutable std::shared_ptr<const contact::WallModel> wall_;
   mutable std::once_flag wall_prepared_, branches_known_, patient_loaded_, free_length_known_, flow_known_, tree_known_,
-      motion_known_;
+      motion_known_, contrast_known_;
   mutable std::shared_ptr<const procedure::BranchLocator> branches_;
   mutable std::unique_ptr<const flow::FlowEngine> flow_;
   mutable std::shared_ptr<const simulation::BloodVessel> blood_vessel_;
+  mutable std::unique_ptr<const simulation::ContrastVessel> contrast_vessel_;
   mutable std::unique_ptr<const simulation::PatientMotion> motion_;
   mutable XRayVolume patient_;
   mutable double free_length_ = 0.0;  ///< from the entry to the wall along its direction [m]

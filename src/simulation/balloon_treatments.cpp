@@ -42,17 +42,14 @@ const char* nameOf(TreatmentEvent event)
 }
 
 BalloonTreatments::BalloonTreatments(const scene::Scene& scene, intervention::DeformableWall* wall)
-  : time_step_(scene.solver.time_step),
-    patient_moves_(scene.motion.has_value()),
-    contact_stiffness_(scene.solver.stepper.contact_stiffness),
-    wall_(wall)
+  : time_step_(scene.solver.time_step), contact_stiffness_(scene.solver.stepper.contact_stiffness), wall_(wall)
 {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
   {
     const instrument::Instrument& instrument = scene.instruments[k].instrument;
     lumens_.push_back(instrument.inner_radius);
     if (instrument.balloon)
-      treatments_.push_back({static_cast<int>(k), intervention::Treatment(instrument), {}, {}, 0, {}});
+      treatments_.push_back({static_cast<int>(k), intervention::Treatment(instrument), {}, {}, 0});
   }
   if (wall_ != nullptr)
     shown_ = due_ = promised_ = wall_->version();
@@ -232,20 +229,6 @@ const std::vector<double>& BalloonTreatments::contactRadii(const rod::State& sta
   return radii_;
 }
 
-/** Replaces the shaft under a balloon that presses by its held place. A shaft that does not reach over the whole
- * balloon is not held. */
-void BalloonTreatments::hold(InstrumentTreatment& treated, std::optional<intervention::ShaftLine>& shaft) const
-{
-  const intervention::Treatment& treatment = treated.treatment;
-  if (!patient_moves_ || !shaft || treatment.load().pressure <= 0.0 || shaft->begin() > treatment.begin() ||
-      shaft->end() < treatment.end())
-  {
-    treated.held.release();
-    return;
-  }
-  shaft = treated.held.follow(*shaft, treatment.begin(), treatment.end(), time_step_);
-}
-
 void BalloonTreatments::addEvent(std::uint64_t step, int instrument, TreatmentEvent event)
 {
   events_.push_back({step, static_cast<double>(step + 1) * time_step_, instrument, event});
@@ -276,7 +259,6 @@ void BalloonTreatments::endStep(std::uint64_t step, const std::vector<double>& c
     if (isHeldBack(treated, covered_from, state))
       treated.treatment.dislodgeStent();
     std::optional<intervention::ShaftLine> shaft = shaftOf(treated, state, at_rest, rod);
-    hold(treated, shaft);
     const intervention::BalloonLoad& load = treated.treatment.step(
         time_step_, commanded[static_cast<std::size_t>(treated.instrument)], shaft ? &*shaft : nullptr, covered_from);
     if (load.sleeve)
@@ -329,11 +311,7 @@ void BalloonTreatments::InstrumentTreatment::archive(Archive& archive)
 void BalloonTreatments::archive(Archive& archive)
 {
   for (InstrumentTreatment& treated : treatments_)
-  {
     archive(treated);
-    if (patient_moves_)
-      archive(treated.held);
-  }
   archive(events_, next_, shown_, due_, promised_, still_, pressed_, at_risk_);
   if (wall_ != nullptr)
     archive(*wall_);

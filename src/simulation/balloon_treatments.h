@@ -10,7 +10,6 @@
 #include "rod/model/discretisation.h"
 #include "rod/model/state.h"
 #include "scene/model/scene.h"
-#include "simulation/held_shaft.h"
 
 namespace endovascular_sim
 {
@@ -95,7 +94,6 @@ private:
     std::vector<double> positions;  ///< distances from the tip at the last contact query, ascending [m]
     std::vector<double> widths;     ///< radii at those positions [m]
     int last_node = 0;              ///< node of the first position
-    HeldShaft held;                 ///< in a moving patient: place of a balloon that presses
 
     void archive(Archive& archive);
   };
@@ -106,7 +104,6 @@ private:
                                                  const std::vector<Eigen::Vector3d>& at_rest,
                                                  const rod::Discretisation& rod) const;
   bool isHeldBack(const InstrumentTreatment& treated, double covered_from, const rod::State& state) const;
-  void hold(InstrumentTreatment& treated, std::optional<intervention::ShaftLine>& shaft) const;
   void collectEvents(const InstrumentTreatment& treated, std::uint64_t step);
   void addEvent(std::uint64_t step, int instrument, TreatmentEvent event);
   static double lastWidth(const InstrumentTreatment& treated, double from_tip);
@@ -115,7 +112,6 @@ private:
   void loadWall(std::uint64_t step);
 
   double time_step_;
-  bool patient_moves_;
   double contact_stiffness_;    ///< [N/m]
   std::vector<double> lumens_;  ///< inner radius of every instrument [m]
   std::vector<InstrumentTreatment> treatments_;

@@ -7,6 +7,8 @@
 #include "common/archive.h"
 #include "common/archive_checks.h"
 #include "common/units.h"
+#include "contrast/lumen/divide_lumen.h"
+#include "flow/coupling/contrast_grid.h"
 #include "flow/drag/drag.h"
 #include "rod/kkt/insertion_forces.h"
 
@@ -85,6 +87,12 @@ Sample between(const Sample& a, const Sample& b, double from_end)
   return mixed;
 }
 
+flow::VesselFlowTree flowTreeOf(const scene::Scene& scene, const vessel::Vessel& vessel)
+{
+  return flow::vesselFlowTree(flow::withoutLesions(vessel.centreline, vessel.lesions), scene.flow->circulation, {},
+                              flow::branchesWithLesions(vessel.centreline.branches.size(), vessel.lesions));
+}
+
 }  // namespace
 
 std::vector<flow::LineSettings> pressureLines(const scene::Scene& scene)
@@ -96,10 +104,13 @@ std::vector<flow::LineSettings> pressureLines(const scene::Scene& scene)
   return lines;
 }
 
-flow::FlowEngine makeFlowEngine(const scene::Scene& scene, const vessel::Vessel& vessel)
+flow::FlowEngine makeFlowEngine(const scene::Scene& scene, const vessel::Vessel& vessel, const ContrastVessel* contrast)
 {
+  std::vector<double> volumes;
+  if (scene.contrast)
+    volumes = contrast != nullptr ? contrast->lumen->volumes : ContrastVessel(scene, vessel).lumen->volumes;
   return flow::FlowEngine(vessel.centreline, vessel.lesions, scene.flow->circulation, timeStepOf(scene),
-                          pressureLines(scene));
+                          pressureLines(scene), std::move(volumes));
 }
 
 void BloodCoupling::StreamSample::archive(Archive& archive)
@@ -112,11 +123,15 @@ void BloodCoupling::Thrust::archive(Archive& archive)
   archive(instrument, from_end, force);
 }
 
+ContrastVessel::ContrastVessel(const scene::Scene& scene, const vessel::Vessel& vessel)
+  : cells(flow::contrastCells(flowTreeOf(scene, vessel), vessel.centreline)),
+    lumen(std::make_shared<const contrast::LumenCells>(contrast::divideLumen(vessel.mesh, vessel.centreline, cells)))
+{
+}
+
 BloodVessel::BloodVessel(const scene::Scene& scene, const vessel::Vessel& vessel)
   : paths(vessel.centreline),
-    places(flow::vesselFlowTree(flow::withoutLesions(vessel.centreline, vessel.lesions), scene.flow->circulation, {},
-                                flow::branchesWithLesions(vessel.centreline.branches.size(), vessel.lesions)),
-           vessel.centreline.branches.size()),
+    places(flowTreeOf(scene, vessel), vessel.centreline.branches.size()),
     lumens(vessel.mesh, vessel.centreline, vessel.lesions)
 {
 }
@@ -195,8 +210,17 @@ void BloodCoupling::exchange(const rod::State& state, const std::vector<Eigen::V
   request_.controls = controls_;
   describeInstruments(state, at_rest, rod, treatments);
   source_->request(request_);
+  request_.injection = {};
   ++request_.step;
   pending_ = true;
+}
+
+flow::TreePath BloodCoupling::pathOf(int instrument, const rod::State& state,
+                                     const std::vector<Eigen::Vector3d>& at_rest, const rod::Discretisation& rod) const
+{
+  if (insertionOf(instrument, state) <= 0.0)
+    return flow::TreePath({});
+  return paths().between(paths().locate(pointOf(state, at_rest, rod, behindEnd(instrument, state)).position), entry_);
 }
 
 /** Sets what instruments leave of the lumen, and the places of their openings and balloons. */
@@ -210,9 +234,7 @@ void BloodCoupling::describeInstruments(const rod::State& state, const std::vect
   {
     const auto index = static_cast<std::size_t>(k);
     const double inserted = insertionOf(k, state);
-    flow::TreePath path({});
-    if (inserted > 0.0)
-      path = paths().between(paths().locate(pointOf(state, at_rest, rod, behindEnd(k, state)).position), entry_);
+    const flow::TreePath path = pathOf(k, state, at_rest, rod);
     for (const Piece& piece : pieces_[index])
       path.addSpans(piece.begin, std::min(piece.end, inserted), piece.radius, request_.instruments);
     if (lines_[index])

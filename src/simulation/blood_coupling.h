@@ -4,10 +4,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "contrast/lumen/lumen_cells.h"
 #include "flow/body/lesion_lumen.h"
 #include "flow/coupling/flow_engine.h"
 #include "flow/coupling/flow_places.h"
@@ -28,9 +30,21 @@ namespace endovascular_sim::simulation
 /** Pressure lines of a scene's instruments. */
 std::vector<flow::LineSettings> pressureLines(const scene::Scene& scene);
 
+/** Lumen of the vessel of a scene with flow, divided into the cells of its contrast medium.
+ *  @throws InputError as makeFlowEngine() */
+struct ContrastVessel
+{
+  ContrastVessel(const scene::Scene& scene, const vessel::Vessel& vessel);
+
+  contrast::ContrastCells cells;
+  std::shared_ptr<const contrast::LumenCells> lumen;
+};
+
 /** Flow engine of a scene with the key `flow`.
+ *  @param contrast of the vessel, for a scene with contrast medium; null: it is divided anew
  *  @throws InputError for a vessel without a centreline, or with one that is no tree */
-flow::FlowEngine makeFlowEngine(const scene::Scene& scene, const vessel::Vessel& vessel);
+flow::FlowEngine makeFlowEngine(const scene::Scene& scene, const vessel::Vessel& vessel,
+                                const ContrastVessel* contrast = nullptr);
 
 /** Tree of a vessel for couplings with the flow of blood. It does not change; any number of couplings share it. */
 struct BloodVessel
@@ -61,6 +75,14 @@ public:
 
   /** True when the step with this number begins a step of the flow. */
   bool isDue(std::uint64_t step) const { return step % period_ == 0; }
+
+  /** Sets what is injected during the next step of the flow, and no longer. */
+  void setInjection(flow::FlowInjection injection) { request_.injection = std::move(injection); }
+
+  /** Path of an instrument in the vessel, from its tip to the introducer; empty for one outside.
+   *  @param at_rest places of the nodes in the vessel at rest [m] */
+  flow::TreePath pathOf(int instrument, const rod::State& state, const std::vector<Eigen::Vector3d>& at_rest,
+                        const rod::Discretisation& rod) const;
 
   /** True when a step of the flow has been begun and not been taken. */
   bool isPending() const { return pending_; }

@@ -50,6 +50,19 @@ void listTouched(const Simulation& simulation, const std::vector<int>& at_node, 
     }
 }
 
+/** Normal force on a node in the vessel at rest: of equal magnitude, along the normal there. */
+Eigen::Vector3d restingForce(const Simulation& simulation, const Eigen::Vector3d& force, int node)
+{
+  if (simulation.motion() == nullptr)
+    return force;
+  const motion::MotionMap& map = simulation.motion()->patient().map();
+  const Eigen::Vector3d& rest = simulation.positionsAtRest()[static_cast<std::size_t>(node)];
+  if (map.resting() || map.outside(rest))
+    return force;
+  const double magnitude = force.norm();
+  return magnitude * map.restingNormal(rest, force / magnitude);
+}
+
 }  // namespace
 
 Eigen::Vector3d wallFriction(const Simulation& simulation, int node)
@@ -69,6 +82,7 @@ void wallContacts(const Simulation& simulation, std::vector<WallContact>& contac
       continue;
     WallContact contact;
     contact.normal_force = state.wall_force[i];
+    contact.resting_force = restingForce(simulation, contact.normal_force, i);
     contact.friction_force = wallFriction(simulation, i);
     contact.position = state.position[i];
     contact.node = i;

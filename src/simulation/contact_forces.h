@@ -15,8 +15,10 @@ struct WallContact
 {
   static constexpr std::size_t kMostFacets = 6;
 
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();        ///< point on the wall [m]
-  Eigen::Vector3d normal_force = Eigen::Vector3d::Zero();    ///< force of the wall on the wire [N]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< point on the wall [m]
+  Eigen::Vector3d normal_force = Eigen::Vector3d::Zero();  ///< force of the wall on the wire [N]
+  /** The normal force in the vessel at rest: of equal magnitude, and along the normal there [N]. */
+  Eigen::Vector3d resting_force = Eigen::Vector3d::Zero();
   Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();  ///< force of the wall on the wire [N]
   int node = 0;                                              ///< node of the wire
   double gap = 0.0;   ///< distance of the wire's surface from the wall; infinite without a feature at the node [m]

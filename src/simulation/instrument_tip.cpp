@@ -26,6 +26,16 @@ void transport(Eigen::Vector3d& tangent, const Eigen::Vector3d& to, Eigen::Vecto
 
 }  // namespace
 
+int firstInsertedNode(const Simulation& simulation)
+{
+  const rod::Discretisation& wire = simulation.discretisation();
+  int node = simulation.state().first_node;
+  while (simulation.hasIntroducer() && node < wire.nodes() &&
+         simulation.state().inserted_length - (wire.length() - wire.position[node]) < 0.0)
+    ++node;
+  return node;
+}
+
 Eigen::Vector3d pointAt(const Simulation& simulation, double inserted)
 {
   const rod::State& state = simulation.state();

@@ -7,6 +7,9 @@
 namespace endovascular_sim::simulation
 {
 
+/** Index of the first node beyond the plane of the introducer; without an introducer, of the first node. */
+int firstInsertedNode(const Simulation& simulation);
+
 /** Point of the common centreline of the instruments at a length beyond the introducer [m].
  *  @param inserted length beyond the introducer [m]; negative outside */
 Eigen::Vector3d pointAt(const Simulation& simulation, double inserted);

@@ -81,6 +81,8 @@ Simulation::Simulation(const scene::Scene& scene, const scene::EntryPose& entry,
     max_travel_ =
         std::min(max_travel_, kTravelPerEdge * *std::min_element(wire.rest_length.begin(), wire.rest_length.end()));
   setMaxInsertions();
+  if (scene_.contrast && scene_.flow)
+    contrast_.emplace(scene_);
   state_ = initialState();
   while (samples_ && sampling_->update(state_))
     stepper_->resample(sampling_->discretisation());
@@ -447,8 +449,53 @@ void Simulation::exchangeBlood(std::uint64_t vessel_version)
   if (!blood_ || !blood_->isDue(steps_))
     return;
   PhaseTimer::Scope scope(timer_, Phase::kBlood);
+  if (contrast_)
+    blood_->setInjection(contrast_->advance(
+        time(), insertions(),
+        [this] { return blood_->pathOf(contrast_->instrument(), state_, positionsAtRest(), discretisation()); }));
   blood_->exchange(state_, positionsAtRest(), motion_ ? &motion_->patient().map() : nullptr, discretisation(),
                    treatments_, wall_(), vessel_version);
+}
+
+std::vector<double> Simulation::insertions() const
+{
+  std::vector<double> lengths;
+  for (int k = 0; k < instruments(); ++k)
+    lengths.push_back(hand(k).insertion);
+  return lengths;
+}
+
+std::string Simulation::refusalOf(const contrast::Injection& injection, bool refill) const
+{
+  if (!contrast_ || !blood_)
+    return "the scene has no contrast medium; give it the key contrast";
+  return contrast_->refusalOf(injection, refill, insertions());
+}
+
+/** Follows an input before the next step. */
+void Simulation::follow(const contrast::Injection& injection, bool refill)
+{
+  if (!contrast_ || !blood_)
+    throw std::logic_error("Simulation: the scene has no contrast medium; give it the key contrast");
+  contrast_->follow({steps_, injection, refill});
+}
+
+void Simulation::inject(const contrast::Injection& injection, bool refill)
+{
+  const std::string refusal = refusalOf(injection, refill);
+  if (contrast_ && blood_ && !refusal.empty())
+    throw std::invalid_argument("injection: " + refusal);
+  follow(injection, refill);
+}
+
+void Simulation::stopInjection()
+{
+  follow({}, false);
+}
+
+void Simulation::refillSyringe()
+{
+  follow({}, true);
 }
 
 void Simulation::setMotion(const PatientMotion& motion)

@@ -4,6 +4,7 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "scene/scene_vessel.h"
 #include "simulation/balloon_treatments.h"
 #include "simulation/blood_coupling.h"
+#include "simulation/contrast_injections.h"
 #include "simulation/handle.h"
 #include "simulation/motion_coupling.h"
 
@@ -118,6 +120,25 @@ public:
   BloodCoupling* blood() { return blood_.get(); }
   /** @} */
 
+  /** Reason for which an injection of contrast medium cannot begin now, with its remedy; empty without one.
+   *  @param refill the syringe is filled before */
+  std::string refusalOf(const contrast::Injection& injection, bool refill = false) const;
+
+  /** Begins an injection with the next step of the flow.
+   *  @throws std::logic_error without the key `contrast` of the scene, or without flow
+   *  @throws std::invalid_argument where refusalOf() names a reason; nothing changes */
+  void inject(const contrast::Injection& injection, bool refill = false);
+
+  /** Ends the present injection; the rest stays in the syringe. @throws std::logic_error as inject() */
+  void stopInjection();
+
+  /** Ends the present injection, and fills the syringe. @throws std::logic_error as inject() */
+  void refillSyringe();
+
+  /** Contrast medium in syringe and instruments; null in a scene without the key `contrast`. That in the vessel is in
+   *  the field of blood(). */
+  const ContrastInjections* contrast() const { return contrast_ ? &*contrast_ : nullptr; }
+
   /** Moves the patient from now on; once, before the first step.
    *  @throws std::logic_error for a scheme without SchemeTraits::moving_walls, or a second call */
   void setMotion(const PatientMotion& motion);
@@ -193,6 +214,8 @@ private:
   std::uint64_t beginTreatments();
   void endTreatments();
   void exchangeBlood(std::uint64_t vessel_version);
+  std::vector<double> insertions() const;
+  void follow(const contrast::Injection& injection, bool refill);
   void beginMotion();
   void carry(double from, double to);
   void setWall(int substep, int substeps, rod::StepInput& input);
@@ -225,6 +248,7 @@ private:
   BalloonTreatments treatments_;
   std::unique_ptr<BloodCoupling> blood_;  ///< null: blood does not flow
   std::function<const std::vector<Eigen::Vector3d>&()> wall_;
+  std::optional<ContrastInjections> contrast_;              ///< empty: no contrast medium is injected
   std::unique_ptr<MotionCoupling> motion_;                  ///< null: the patient rests
   mutable std::vector<Eigen::Vector3d> positions_at_rest_;  ///< empty: not known
   std::vector<double> pressures_;                           ///< commanded pressure of every instrument [Pa]

@@ -7,6 +7,7 @@
 #include "common/archive.h"
 #include "common/archive_checks.h"
 #include "common/error.h"
+#include "common/releases.h"
 #include "common/version.h"
 #include "scene/model/portable_text.h"
 #include "simulation/saved_state.h"
@@ -20,7 +21,6 @@ namespace endovascular_sim::simulation
 namespace
 {
 
-constexpr std::uint32_t kFormat = 9;       ///< incremented with every change of the saved data
 constexpr std::uint32_t kNamesWriter = 5;  ///< first format whose header names the version that wrote it
 
 /** First commits of the formats whose headers do not name the version that wrote them. */
@@ -33,7 +33,7 @@ constexpr double kLargestDistalTurn = 20.0;  ///< between a saved distal end and
 struct Header
 {
   std::array<char, 8> magic = kStateMagic;
-  std::uint32_t format = kFormat;
+  std::uint32_t format = kStateFormat;
   std::string writer = std::string(version()) + ", commit " + commit();
   int physics = kPhysicsNumber;
   std::uint64_t scene_hash = 0;
@@ -48,7 +48,7 @@ struct Header
       readOldWriter();
     else
       archiveWriter(archive);
-    if (format == kFormat)
+    if (format == kStateFormat)
       archive(physics, scene_hash, vessel_hash);
   }
 
@@ -89,21 +89,28 @@ std::string checked(std::string bytes, const std::string& origin)
   return bytes;
 }
 
+/** Remedy for a state that this version does not load: the release that does, if there is one. */
+std::string loadItElsewhere(std::uint32_t format, int physics)
+{
+  const std::string release = releaseOfState(format, physics);
+  return "; load it with " + (release.empty() ? "the version that wrote it" : release) + ", or save it again";
+}
+
 /** @param former_hash of the scene, as states of former versions hold it
  *  @param of_same_scene false: accepts the state of another scene */
 void checkHeader(const Header& header, const Header& wanted, std::uint64_t former_hash, const std::string& origin,
                  bool of_same_scene)
 {
-  if (header.format != kFormat)
+  if (header.format != kStateFormat)
     throw InputError(origin, "",
                      "has format " + std::to_string(header.format) + ", written by endovascular_sim " + header.writer +
-                         "; this version reads format " + std::to_string(kFormat) +
-                         "; load it with the version that wrote it, or save it again");
+                         "; this version reads format " + std::to_string(kStateFormat) +
+                         loadItElsewhere(header.format, 0));  // the layout behind the writer is another one
   if (header.physics != wanted.physics)
     throw InputError(origin, "",
                      "was saved with physics number " + std::to_string(header.physics) + " by endovascular_sim " +
                          header.writer + "; this version has number " + std::to_string(wanted.physics) +
-                         "; load it with the version that wrote it, or save it again");
+                         loadItElsewhere(header.format, header.physics));
   if (of_same_scene && header.scene_hash != wanted.scene_hash && header.scene_hash != former_hash)
     throw InputError(origin, "",
                      "was saved in another scene, or with other values (hash " + Hash64::toHex(header.scene_hash) +
@@ -145,6 +152,8 @@ void Simulation::archive(Archive& archive)
   archive(treatments_);
   if (blood_)
     archive(*blood_);
+  if (contrast_)
+    archive(*contrast_);
   if (motion_)
     archive(*motion_);
   positions_at_rest_.clear();

@@ -15,6 +15,8 @@
 #include "nodes/session/session_bag.h"
 #include "nodes/session/session_files.h"
 #include "results/step_costs_csv.h"
+#include "session/cine_files.h"
+#include "tools/cine_options.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 
@@ -31,6 +33,8 @@ struct Options
 {
   std::vector<std::string> paths;
   std::string out, costs;
+  tools::CineOptions cine;
+  std::string cine_out;
   bool keep_going = false;
   bool no_pictures = false;
   bool no_plots = false;
@@ -79,8 +83,17 @@ int compare(const std::string& file, const Options& options, bool shows_progress
   const auto steps = static_cast<double>(recording.steps.size());
   std::uint64_t done = 0;
   Clock::time_point before = Clock::now();
+  std::optional<session::CineFiles> cine;
+  if (options.cine.isGiven())
+  {
+    cine.emplace(session.session().world(), options.cine.settings(), session::cineTimeOf(options.cine.interval()),
+                 options.cine_out);
+    cine->update(session.session());
+  }
   const auto after = [&]
   {
+    if (cine)
+      cine->update(session.session());
     if (costs)
       costs->add(session.simulation(), std::chrono::duration<double>(Clock::now() - before).count());
     if (shows_progress && ++done % 1000 == 0)
@@ -92,6 +105,9 @@ int compare(const std::string& file, const Options& options, bool shows_progress
     std::fprintf(stderr, "\r");
   if (costs)
     tools::requireWritten(costs->flush(), options.costs);
+  if (cine)
+    if (const std::string missing = cine->finish(); !missing.empty())
+      text.err << "replay: " << missing << "\n";
   return report(outcome, session, file, text);
 }
 
@@ -192,6 +208,11 @@ int main(int argc, char** argv)
   line.flag("--keep-going", options.keep_going, "counts all steps that differ instead of ending at the first one");
   line.option("--costs", options.costs, "FILE",
               "writes time, solves and contacts of every step of a single bag as CSV (docs/SIMULATE.md)");
+  CLI::Option* cine = options.cine.addTo(line);
+  CLI::Option* cine_out =
+      line.option("--cine-out", options.cine_out, "DIR", "folder of these frames, which are those of a single bag");
+  cine->needs(cine_out);
+  cine_out->needs(cine);
   line.option("--threads", options.threads, "N", "sessions at the same time; 0: one per processor, at most 8")
       ->check(CLI::Range(0, 64));
   line.require(
@@ -199,6 +220,8 @@ int main(int argc, char** argv)
       {
         if (!options.costs.empty() && (options.paths.size() != 1 || std::filesystem::is_directory(options.paths[0])))
           return "--costs takes a single bag";
+        if (options.cine.isGiven() && (options.paths.size() != 1 || std::filesystem::is_directory(options.paths[0])))
+          return "--cine takes a single bag";
         for (const char* name : {"/report.json", "/session.bag"})
           if (!options.out.empty() && std::filesystem::exists(options.out + name))
             return "--out: " + options.out + " already contains a session; choose another folder";

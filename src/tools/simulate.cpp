@@ -26,12 +26,14 @@
 #include "rod/energy/energy_audit.h"
 #include "scene/model/scene.h"
 #include "scene/scene_file.h"
+#include "session/cine_files.h"
 #include "session/phase_pictures.h"
 #include "session/session.h"
 #include "session/step_states.h"
 #include "simulation/driven_hands.h"
 #include "simulation/instrument_tip.h"
 #include "simulation/simulation.h"
+#include "tools/cine_options.h"
 #include "tools/command_line.h"
 #include "tools/tool_output.h"
 #include "vessel/io/mesh_reader.h"
@@ -41,6 +43,8 @@ namespace
 
 using namespace endovascular_sim;  // NOLINT: a program's main file
 using Clock = std::chrono::steady_clock;
+
+constexpr double kRounding = 1e-9;  // of a time [s]
 
 struct Options
 {
@@ -57,6 +61,7 @@ struct Options
   bool audit = false;
   bool pictures = false;
   bool x_ray = false;
+  tools::CineOptions cine;
   bool no_plots = false;
   bool quiet = false;
 
@@ -88,6 +93,7 @@ void addOptions(tools::CommandLine& line, Options& options)
   line.flag("--pictures", options.pictures,
             "writes fluoroscopy/phase_01.png and so on: the C-arm's image at the end of each phase of a procedure");
   line.flag("--x-ray", options.x_ray, "writes x_ray.png: the C-arm's image of the last step");
+  options.cine.addTo(line);
   CLI::Option* save = line.option("--save-state", options.save_state, "FILE", "saves the state at the time of --at");
   CLI::Option* at =
       line.quantity("--at", options.save_at, "T", quantities::kDuration, "simulated time of the saved state [s]")
@@ -112,7 +118,7 @@ void addOptions(tools::CommandLine& line, Options& options)
 void writeNodes(std::ofstream& file, const simulation::Simulation& simulation)
 {
   char line[200];
-  for (int i = results::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+  for (int i = simulation::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
   {
     const Eigen::Vector3d& x = simulation.state().position[i];
     std::snprintf(line, sizeof line, "%.17g,%d,%.17g,%.17g,%.17g\n", simulation.time(), i, x.x(), x.y(), x.z());
@@ -138,7 +144,7 @@ results::TrajectoryRow rowOf(const simulation::Simulation& simulation)
   row.tip_rotation = simulation::tipRotation(simulation, furthest);
   for (int k = 0; k < simulation.instruments(); ++k)
     row.pressure = std::max(row.pressure, simulation.hand(k).pressure);
-  row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - results::firstInsertedNode(simulation));
+  row.nodes = static_cast<std::size_t>(simulation.discretisation().nodes() - simulation::firstInsertedNode(simulation));
   return row;
 }
 
@@ -306,10 +312,28 @@ void showProgress(const scene::Scene& scene, std::uint64_t done, std::uint64_t a
   tools::drawProgress(static_cast<double>(done) / static_cast<double>(all), factor);
 }
 
+/** Files of the run of X-ray frames; none without --cine. */
+std::optional<session::CineFiles> cineFiles(const Options& options, const session::Session& session)
+{
+  if (!options.cine.isGiven())
+    return std::nullopt;
+  const session::World& world = session.world();
+  const session::CineTime time = session::cineTimeOf(options.cine.interval());
+  const double begin = session.simulation().time();
+  const double end = static_cast<double>(session.lastStep()) * world.scene().solver.time_step;
+  if (time.begin < begin - kRounding || time.end > end + kRounding)
+    throw InputError(
+        options.scene, "--cine",
+        formatted("%s lies outside the simulated time, %g to %g s", options.cine.interval().c_str(), begin, end));
+  tools::printNotes("patient", world.patient().notes);
+  return std::optional<session::CineFiles>(std::in_place, world, options.cine.settings(), time, options.out);
+}
+
 /** Steps to the end, and writes tables, state and pictures on the way.
  *  @param pictures null without --pictures */
 void run(const Options& options, session::Session& session, session::PhasePictures* pictures)
 {
+  std::optional<session::CineFiles> cine = cineFiles(options, session);
   const scene::Scene& scene = session.scene();
   simulation::Simulation& simulation = session.simulation();
   Tables tables(scene, options);
@@ -323,6 +347,8 @@ void run(const Options& options, session::Session& session, session::PhasePictur
   const bool progress = !options.quiet && isatty(STDERR_FILENO);
   const Clock::time_point begin = Clock::now();
   const std::uint64_t first = simulation.steps();
+  if (cine)
+    cine->update(session);
   while (!session.isOver())
   {
     hands.play(session);
@@ -334,6 +360,8 @@ void run(const Options& options, session::Session& session, session::PhasePictur
       saveStep(options.save_steps, session, step_states);
     if (pictures != nullptr)
       pictures->update(session);
+    if (cine)
+      cine->update(session);
     if (simulation.steps() % row_every != 0 && simulation.steps() != session.lastStep())
       continue;
     tables.addRow(simulation);
@@ -346,6 +374,9 @@ void run(const Options& options, session::Session& session, session::PhasePictur
   if (progress)
     std::fputc('\n', stderr);
   tables.flush();
+  if (cine)
+    if (const std::string missing = cine->finish(); !missing.empty())
+      tools::printWarnings("simulate", {missing});
   if (!options.audit)
     return;
   simulation.setObserver(nullptr);

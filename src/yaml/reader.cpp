@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/quantities.h"
+#include "common/releases.h"
 #include "common/text/format.h"
 #include "common/text/words.h"
 #include "common/written_unit.h"
@@ -179,7 +180,8 @@ void Reader::finish() const
   {
     if (std::find(known_.begin(), known_.end(), key) != known_.end())
       continue;
-    rejectNode(value, pathOf(key), "unknown key; " + suggestion(key, known_, "known keys: "));
+    const std::string former = remedyOfFormerKey(pathOf(key));
+    rejectNode(value, pathOf(key), former.empty() ? "unknown key; " + suggestion(key, known_, "known keys: ") : former);
   }
 }
 

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "contrast/lumen/divide_lumen.h"
 #include "fluoroscopy/patient/progressive_projection.h"
+#include "test/contrast/lumen_fixtures.h"
 #include "test/fluoroscopy/motion_fixtures.h"
 #include "test/fluoroscopy/shapes.h"
 
@@ -387,6 +389,150 @@ TEST(Fluoroscope, AtRestHasTheBitsOfAPatientWithoutMotion)
     EXPECT_NE(raw, moved);
     EXPECT_EQ(raw, resting.render({}).raw) << frame;
   }
+}
+
+/** Straight vessel of four cells across the view, and its lumen. */
+struct ContrastVessel
+{
+  geometry::TriangleMesh mesh = cylinder({-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}, 4e-3, 48);
+  std::shared_ptr<const contrast::LumenCells> lumen = std::make_shared<contrast::LumenCells>(
+      contrast::divideLumen(mesh, {{{"trunk", -1, {{-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}}, {4e-3, 4e-3}}}},
+                            {{0, 0.0, 0.03, -1}, {0, 0.03, 0.05, 0}, {0, 0.05, 0.07, 1}, {0, 0.07, 0.1, 2}}));
+
+  Fluoroscope in(const XRayScene& technique) const
+  {
+    CArmPose pose;
+    pose.pixels = 256;
+    Fluoroscope fluoroscope(pose, technique, library());
+    fluoroscope.setVessel(mesh);
+    fluoroscope.setLumen(lumen);
+    return fluoroscope;
+  }
+};
+
+XRayScene withIodine(double iodine)
+{
+  XRayScene result = scene();
+  result.iodine = iodine;
+  return result;
+}
+
+TEST(Fluoroscope, DrawsAnEvenContrastAsTheIodineOfTheScene)
+{
+  const ContrastVessel vessel;
+  Fluoroscope even = vessel.in(withIodine(120.0)), injected = vessel.in(withIodine(30.0));
+  injected.setContrast(std::vector<double>(4, 120.0));
+  const std::vector<std::uint16_t> wanted = even.render({}).raw;
+  const std::vector<std::uint16_t> found = injected.render({}).raw;
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    ASSERT_NEAR(found[k], wanted[k], 2) << k;  // equal noise, within 1e-4 of the signal
+}
+
+TEST(Fluoroscope, WithoutIodineInAnyCellHasTheBitsOfAVesselWithoutIodine)
+{
+  const ContrastVessel vessel;
+  Fluoroscope plain = vessel.in(withIodine(0.0)), none = vessel.in(withIodine(50.0));
+  none.setContrast(std::vector<double>(4, 0.0));
+  EXPECT_EQ(none.render({}).raw, plain.render({}).raw);
+}
+
+TEST(Fluoroscope, WithCellsButWithoutContrastHasTheBitsOfAVesselWithoutCells)
+{
+  const ContrastVessel vessel;
+  Fluoroscope divided = vessel.in(withIodine(50.0)), plain = vessel.in(withIodine(50.0));
+  plain.setLumen(nullptr);
+  EXPECT_EQ(divided.render({}).raw, plain.render({}).raw);
+}
+
+TEST(Fluoroscope, DarkensTheCellsThatHoldContrast)
+{
+  const ContrastVessel vessel;
+  Fluoroscope fluoroscope = vessel.in(scene());
+  fluoroscope.setContrast({0.0, 0.0, 150.0, 0.0});
+  const Frame frame = fluoroscope.render({});
+  const auto count = [&](double x) { return meanCount(frame, nearestPixel(fluoroscope.geometry(), {x, 0.0, 0.0})); };
+  EXPECT_LT(count(0.01), 0.75 * count(-0.01));
+  EXPECT_NEAR(count(0.035), count(-0.035), 0.02 * count(-0.035));
+  EXPECT_GT(count(0.035), 1.3 * count(0.01));
+}
+
+TEST(Fluoroscope, DrawsContrastWhateverItDrewBefore)
+{
+  const ContrastVessel vessel;
+  const std::vector<double> contrast{10.0, 200.0, 0.0, 90.0};
+  Fluoroscope fresh = vessel.in(scene()), used = vessel.in(scene());
+  fresh.setContrast(contrast);
+  const std::vector<std::uint16_t> wanted = fresh.render({}).raw;
+  used.setContrast({300.0, 0.0, 20.0, 7.0});
+  used.render({});
+  used.setContrast({0.0, 0.0, 250.0, 0.0});
+  used.render({});
+  used.restart();
+  used.setContrast(contrast);
+  EXPECT_EQ(used.render({}).raw, wanted);
+  used.setContrast({});
+  fresh.setContrast({});
+  used.restart(), fresh.restart();
+  EXPECT_EQ(used.render({}).raw, fresh.render({}).raw);
+}
+
+TEST(Fluoroscope, LetsContrastFollowTheWallAndTheCArm)
+{
+  const ContrastVessel vessel;
+  const std::vector<double> contrast{10.0, 200.0, 0.0, 90.0};
+  geometry::TriangleMesh wide = vessel.mesh;
+  for (Eigen::Vector3d& p : wide.vertices)
+    p.tail<2>() *= 1.3;
+  Fluoroscope fluoroscope = vessel.in(scene());
+  fluoroscope.setContrast(contrast);
+  fluoroscope.render({});
+  fluoroscope.setVessel(wide);
+  CArmPose pose = fluoroscope.geometry().pose();
+  pose.primary_angle = 0.3;
+  fluoroscope.setPose(pose);
+  fluoroscope.restart();
+  Fluoroscope wanted(pose, scene(), library());
+  wanted.setVessel(vessel.mesh);
+  wanted.setLumen(vessel.lumen);
+  wanted.setVessel(wide);
+  wanted.setContrast(contrast);
+  EXPECT_EQ(fluoroscope.render({}).raw, wanted.render({}).raw);
+}
+
+TEST(Fluoroscope, RefusesContrastWithoutItsCells)
+{
+  const ContrastVessel vessel;
+  Fluoroscope fluoroscope = vessel.in(scene());
+  EXPECT_THROW(fluoroscope.setContrast({1.0, 2.0}), InputError);
+  EXPECT_THROW(fluoroscope.setContrast({1.0, 2.0, -1.0, 0.0}), InputError);
+  EXPECT_NO_THROW(fluoroscope.setContrast({1.0, 2.0, 1.0, 0.0}));
+  fluoroscope.setVessel(sphere({0.0, 0.0, 0.0}, 0.02, 12, 12));
+  EXPECT_THROW(fluoroscope.setContrast({1.0, 2.0, 1.0, 0.0}), InputError) << "another vessel has lost the cells";
+  EXPECT_THROW(fluoroscope.setLumen(vessel.lumen), InputError);
+}
+
+/** Largest difference of grey levels that the natural anatomy makes without contrast, outside of the noise. */
+TEST(Fluoroscope, WithoutContrastShowsCoronaryArteriesByLessThanAGreyLevel)
+{
+  XRayScene technique = withIodine(0.0);
+  technique.exposure.detector_dose = 100e-9;
+  Fluoroscope with(heartView(-0.52, -0.35, 512), technique, library());
+  Fluoroscope without(heartView(-0.52, -0.35, 512), technique, library());
+  const contrast::DividedVessel& vessel = contrast::generatedVessel("natural");
+  with.setVessel(vessel.mesh);
+  const std::vector<std::uint8_t> seen = with.render({}).image, empty = without.render({}).image;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (const vessel::CentrelineBranch& branch : vessel.centreline.branches)
+    if (branch.name == "left_anterior_descending" || branch.name == "left_circumflex" ||
+        branch.name == "right_coronary")
+      for (std::size_t k = branch.points.size() / 4; k < branch.points.size(); ++k, ++count)
+      {
+        const std::size_t pixel = nearestPixel(with.geometry(), branch.points[k]);
+        squares += std::pow(static_cast<double>(seen[pixel]) - static_cast<double>(empty[pixel]), 2);
+      }
+  EXPECT_GT(count, 100U);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 1.0);
 }
 
 }  // namespace

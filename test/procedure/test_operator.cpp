@@ -495,5 +495,46 @@ TEST(Operator, OfAGuidedProcedureContinuesFromASavedState)
   EXPECT_EQ(other.scripted_operator.records()[0].outcome, Progress::kDone);
 }
 
+const std::string kInjection =
+    "    - {inject: catheter, volume: 3e-6, rate: 3e-6}\n    - {wait: 0.2}\n"
+    "flow: adult\ncontrast: {}\n";
+
+TEST(Operator, InjectsOnceAndWaitsForTheEndOfTheInjection)
+{
+  PlainWorld world(sceneWith(kInjection));
+  bool is_injecting = true;
+  double injected = 2e-6;  // before the step
+  world.disturbance = [&](Observation& observation)
+  {
+    observation.is_injecting = is_injecting;
+    observation.injected_volume = injected;
+  };
+  EXPECT_FALSE(world.scripted_operator.takeInjection());
+  world.run(0.001);
+  const std::optional<contrast::Injection> injection = world.scripted_operator.takeInjection();
+  ASSERT_TRUE(injection);
+  EXPECT_EQ(injection->volume, 3e-6);
+  EXPECT_EQ(injection->concentration, 350.0);
+  EXPECT_FALSE(world.scripted_operator.takeInjection()) << "once";
+  injected = 4.9e-6;
+  world.run(2.0);
+  EXPECT_EQ(world.scripted_operator.records().size(), 1U);
+  EXPECT_EQ(world.scripted_operator.records()[0].name, "inject 3.0 ml through catheter");
+  injected = 5e-6;
+  is_injecting = false;
+  world.run(1.0);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kDone);
+}
+
+TEST(Operator, FailsWhereItsInjectionEndsEarly)
+{
+  PlainWorld world(sceneWith(kInjection));
+  world.run(1.0);
+  EXPECT_EQ(world.scripted_operator.progress(), Progress::kFailed);
+  EXPECT_NE(world.scripted_operator.failure().find("0 of 3 ml were injected: no opening of catheter was in the vessel"),
+            std::string::npos)
+      << world.scripted_operator.failure();
+}
+
 }  // namespace
 }  // namespace endovascular_sim::procedure

@@ -73,6 +73,37 @@ class Sessions(unittest.TestCase):
         with self.assertRaisesRegex(evs.InputError, "view"):
             session.image("FROM ABOVE")
 
+    def test_take_runs_of_x_ray_frames_at_the_pulses_of_the_scene(self):
+        world = evs.World("tube", fluoroscopy={"pixels": 64})
+        session = world.session()
+        run = session.cine(0.3, dsa=2, raw=True)
+        self.assertEqual(list(run.steps), [0, 67, 134, 200, 267])
+        self.assertEqual(list(run.pulses), [0, 1, 2, 3, 4])
+        np.testing.assert_array_equal(run.times, run.steps * world.time_step)
+        self.assertEqual((run.images.shape, run.images.dtype), ((5, 64, 64), np.uint8))
+        self.assertEqual((run.raw.shape, run.raw.dtype), ((5, 64, 64), np.uint16))
+        self.assertEqual(run.subtracted.shape, (3, 64, 64))
+        self.assertEqual((len(run), session.steps), (5, 300))
+        state = session.save()
+        later = session.cine(0.1)
+        self.assertEqual(list(later.pulses), [5, 6])
+        self.assertEqual(later.raw.shape, (0, 64, 64))
+        session.load(state)
+        held = np.zeros((len(world.instruments), 3))
+        held[:, :2] = session.reached
+        both = session.cine(0.1, view=("AP", "LAO 40"), commands=held)
+        self.assertEqual(both.images.shape, (2, 2, 64, 64))
+        self.assertFalse(np.array_equal(both.images[0, 0], both.images[0, 1]))
+        session.load(state)
+        np.testing.assert_array_equal(session.cine(0.1).images, later.images)
+        for arguments, part in (((-1.0,), "seconds"), ((1.0, "FROM ABOVE"), "view"), ((1.0, 3), "view"),
+                                ((1.0, "", -1), "dsa"), ((1.0, "", 65), "mask_frames"),
+                                ((1.0, "", 1, (99.0, 0.0)), "shift"),
+                                ((1.0, "", 0, (0.0, 0.0), False, None, 0.5), "needs a run of DSA"),
+                                ((1.0, "", 8, (0.0, 0.0), False, None, 0.3), "begins at")):
+            with self.assertRaisesRegex(evs.InputError, part):
+                session.cine(*arguments)
+
     def test_write_the_results_of_simulate(self):
         with tempfile.TemporaryDirectory() as folder:
             session = tube().session(results=True)

@@ -1,6 +1,7 @@
 #include "contact/detector.h"
 #include "results/run_result.h"
 #include "scene/scene_file.h"
+#include "simulation/instrument_tip.h"
 #include "vessel/anatomy/tube.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ TEST(RunResult, FirstInsertedNodeWithoutAnIntroducerIsTheFirstNode)
   {
     const scene::Scene scene = scene::loadScene(std::string(PROJECT_DIR "/config/scenes/") + name);
     const simulation::Simulation simulation(scene, scene::resolveEntry(scene.entry, scene.file), nullptr);
-    EXPECT_EQ(firstInsertedNode(simulation) == 0, !scene.introducer) << name;
+    EXPECT_EQ(simulation::firstInsertedNode(simulation) == 0, !scene.introducer) << name;
   }
 }
 
@@ -106,7 +107,7 @@ TEST(RunResult, CountsTheNodesOutsideThatASearchForEveryNodeFinds)
     simulation.step({0.005 + 3e-5 * k, 0.0});
     result.checkOutside(simulation, wall);
     int outside = 0;
-    for (int i = firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+    for (int i = simulation::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
       outside += wall.signedDistance(simulation.state().position[i]) < 0.0;
     most = std::max(most, outside);
     if (k % 100 != 0)

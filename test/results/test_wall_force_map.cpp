@@ -43,6 +43,7 @@ simulation::WallContact contactOf(int triangle, double force, const Eigen::Vecto
   simulation::WallContact contact;
   contact.triangle = triangle;
   contact.normal_force = force * Eigen::Vector3d(0.6, 0.0, 0.8);
+  contact.resting_force = contact.normal_force;
   contact.friction_force = Eigen::Vector3d(0.0, 100.0, 0.0);  // must have no effect
   contact.position = position;
   return contact;

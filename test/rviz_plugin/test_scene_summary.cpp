@@ -28,14 +28,14 @@ const InstrumentSummary& instrument(const SceneSummary& scene, const std::string
 TEST(SceneSummary, NamesTheInstrumentOfEachStep)
 {
   const SceneSummary scene = summaryOf("lesson_lad_stent");
-  ASSERT_EQ(scene.steps.size(), 14U);
+  ASSERT_EQ(scene.steps.size(), 19U);
   EXPECT_EQ(scene.steps[0].instrument, "wire");
   EXPECT_EQ(scene.steps[2].instrument, "catheter");
-  EXPECT_EQ(scene.steps[7].instrument, "stent");
+  EXPECT_EQ(scene.steps[9].instrument, "stent");
   EXPECT_FALSE(scene.steps[0].hint.empty());
   EXPECT_EQ(scene.steps[0].goal, "aortic_arch");
   EXPECT_EQ(scene.steps[3].goal, "") << "it leads out";
-  EXPECT_EQ(scene.steps[7].goal, "left_anterior_descending") << "of the balloon";
+  EXPECT_EQ(scene.steps[9].goal, "left_anterior_descending") << "of the balloon";
 }
 
 TEST(SceneSummary, CountsAnExchangeAsTwoStepsAsTheProcedureDoes)

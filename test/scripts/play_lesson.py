@@ -14,7 +14,8 @@ from trainee import Trainee
 # Instruments in the order of the scene, and the one of the first step.
 LESSONS = {"lesson_bifurcation": (["wire"], 0), "lesson_catheter_needs_wire": (["wire", "catheter"], 1),
            "lesson_lad_stent": (["soft_wire", "stent", "wire", "catheter"], 2),
-           "lesson_pressure": (["pressure_wire", "stent", "wire", "catheter"], 2)}
+           "lesson_pressure": (["pressure_wire", "stent", "wire", "catheter"], 2),
+           "lesson_injection": (["wire", "catheter"], 0)}
 
 
 def passed(text):
@@ -111,7 +112,7 @@ def main():
     folder, repository, lesson = sys.argv[1:4]
     screen = sys.argv[4] if len(sys.argv) > 4 else "1280x800"
     names, driven = LESSONS[lesson]
-    with RvizSession(folder, "%s/launch/%s.launch" % (repository, lesson), "expert:=false", screen=screen, layout="lesson") as session:
+    with RvizSession(folder, "%s/launch/%s.launch" % (repository, lesson), "expert:=false", "step:=1", screen=screen, layout="lesson") as session:
         session.wait(30, lambda: session.step is not None and session.step.hint, "the hint of the first step")
         trainee = Trainee(session, "%s/config/procedures/%s.yaml" % (repository, lesson), names)
         use_all_controls(session, driven)

@@ -11,7 +11,7 @@ import bag_sessions
 
 EQUAL = ("scene.yaml", "trajectory.csv", "wall_forces.csv", "vessel_points.csv", "metrics.json", "metrics.html", "instruments.csv")
 SCENES = {
-    "demo": ("config/scenes/demo.yaml", "duration=3"),
+    "demo": ("config/scenes/demo.yaml", "duration=6"),  # long enough for X-ray images on a busy machine
     "treatment": ("test/data/scenes/good_treatment_errors.yaml",),
     "procedure": ("test/data/scenes/good_procedure_errors.yaml",),
 }

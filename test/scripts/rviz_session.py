@@ -18,7 +18,8 @@ PLACES = {"work": {"start": (44, 100), "pause": (129, 100), "reset": (213, 100),
           "lesson": {"start": (44, 38), "pause": (127, 38), "reset": (230, 38), "record": (327, 38), "repeat_step": (327, 66),
                      "push": (85, 127), "pull": (251, 127), "twist_left": (85, 162), "twist_right": (251, 162), "focus": (90, 210),
                      "pressure": (30, 273), "set_pressure": (115, 273), "deflate": (293, 273),
-                     "adenosine": (44, 474)}}  # where blood flows
+                     "adenosine": (44, 474),      # where blood flows
+                     "hold_breath": (46, 366)}}  # without blood
 
 
 def run(*command, seconds=20, **options):

@@ -13,7 +13,7 @@ sys.path.insert(0, repository + "/test/scripts")
 from running_graph import RunningGraph
 OTHERS = {"rosout", "rosout_agg", "tf", "tf_static", "diagnostics", "clock"}  # of ROS; /diagnostics is in the table too
 ONLY_IN_RECORDINGS = {"session/end", "session/gap"}
-FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy|robot|sensors|hemodynamics|motion|player|ghost|expert)"
+FIRST_WORDS = r"(?:vessel|rod|wire|treatment|contact|drive|instruments|haptic|procedure|session|simulation|fluoroscopy|robot|sensors|hemodynamics|motion|contrast|player|ghost|expert)"
 # test_player_of_recordings.sh and test_expert_beside_trainee.sh start them.
 ONLY_IN_REPLAYS = {"player/state", "player/control", "expert/state", "expert/state_visual", "expert/treatment_visual", "expert/scene",
                    "expert/align", "expert/show"}
@@ -101,9 +101,10 @@ def running(scene, arguments, extra):
             names = now
 
 
-# A scene with every kind of topic except those of a moving patient, the haptic device and the robot, and a scene with each of them.
+# A scene with every kind of topic except those of contrast medium and a moving patient, the haptic device and the robot, and
+# scenes with these.
 graph = running("test/data/procedure_with_balloon.yaml", ["haptic_device:=false", "overrides:=flow=adult"], {"fluoroscopy/image_raw", "wire/marker"})
-graph |= running("test/data/catheter_in_motion.yaml", ["haptic_device:=false"], {"motion/state", "motion/set"})
+graph |= running("test/data/catheter_with_contrast.yaml", ["haptic_device:=false"], {"motion/state", "motion/set", "contrast/state", "contrast/inject"})
 graph |= running("test/data/hand_in_tube.yaml", ["device:=%s/none" % folder], {"haptic/*/operating_state"})
 graph |= running("test/data/robot_in_tube.yaml", ["haptic_device:=false", "robot:=true"], {"robot/operating_state"})
 graph -= OTHERS | ONLY_IN_REPLAYS

@@ -5,7 +5,7 @@ import math
 import numpy
 import rospy
 import yaml
-from endovascular_sim.msg import HeartPhase, SessionSample, VesselCentreline
+from endovascular_sim.msg import HeartPhase, MotionControls, SessionSample, VesselCentreline
 
 STALLED = 2.0  # simulated time without progress after which the person pulls back [s]
 PROGRESS = 2e-3  # motion of a tip that counts as progress [m]
@@ -36,6 +36,8 @@ class Trainee:
         self.count = 0  # messages of ProcedureStep that were examined
         self.hyperaemia = False
         rospy.Subscriber("hemodynamics/phase", HeartPhase, lambda heart: setattr(self, "hyperaemia", bool(heart.hyperaemia)), queue_size=1)
+        self.breath_held = False  # asked for
+        rospy.Subscriber("motion/controls", MotionControls, lambda controls: setattr(self, "breath_held", controls.breath_held), queue_size=1)
         rospy.Subscriber("session/sample", SessionSample, lambda message: setattr(self, "sample", message), queue_size=1)
         rospy.Subscriber("vessel/centreline", VesselCentreline, self._take_branches, queue_size=1)
         session.wait(60, lambda: self.sample is not None and self.branches is not None, "samples and the centreline")
@@ -141,6 +143,12 @@ class Trainee:
     def withdraw(self, k, number):
         self.key_until("Down", lambda: self.number() != number or self.is_done(), "the withdrawal of step %d" % number)
 
+    def inject(self, number, volume, rate):
+        """Fills the syringe and injects by the buttons of the panel: the puff, or the volume and rate that stand in its boxes."""
+        self.session.click("refill_syringe")
+        self.session.click("puff" if (volume, rate) == (3e-6, 3e-6) else "inject")
+        self.session.wait(LIMIT, lambda: self.number() != number or self.is_done(), "step %d" % number)
+
     def do_step(self):
         """Does the present step as its hint says."""
         number = self.number()
@@ -153,9 +161,14 @@ class Trainee:
                 self.session.set_pressure(pressure)
             self.session.wait(LIMIT, lambda: self.number() != number or self.is_done(), "step %d" % number)
             return
+        if "inject" in step:
+            self.inject(number, float(step["volume"]), float(step["rate"]))
+            return
         if "wait" in step:
             if "hyperaemia" in step and self.hyperaemia != step["hyperaemia"]:
                 self.session.click("adenosine")
+            if "breath" in step and self.breath_held != (step["breath"] == "hold"):
+                self.session.click("hold_breath")
             self.session.wait(LIMIT, lambda: self.number() != number or self.is_done(), "step %d" % number)
             return
         name = step.get("advance") or step.get("withdraw")

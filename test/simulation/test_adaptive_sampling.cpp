@@ -6,6 +6,7 @@
 #include "contact/detector.h"
 #include "results/run_result.h"
 #include "scene/scene_file.h"
+#include "simulation/instrument_tip.h"
 #include "simulation/replay_source.h"
 #include "simulation/simulation.h"
 
@@ -42,7 +43,7 @@ struct Bench
     return wire.position[node] - (wire.length() - simulation.state().inserted_length);
   }
 
-  int inserted() const { return simulation.discretisation().nodes() - results::firstInsertedNode(simulation); }
+  int inserted() const { return simulation.discretisation().nodes() - simulation::firstInsertedNode(simulation); }
 
   scene::Scene scene;
   vessel::Vessel vessel;
@@ -75,7 +76,7 @@ TEST(AdaptiveSampling, RefinesBendsAndStaysInTheTube)
   const std::vector<Eigen::Vector3d>& x = bench.simulation.state().position;
   double shortest_in_bend = 1.0;
   double longest = 0.0;
-  for (int i = results::firstInsertedNode(bench.simulation); i + 1 < wire.nodes(); ++i)
+  for (int i = simulation::firstInsertedNode(bench.simulation); i + 1 < wire.nodes(); ++i)
   {
     const Eigen::Vector3d before = (x[i] - x[i - 1]).normalized();
     const double turn = std::acos(std::min(1.0, before.dot((x[i + 1] - x[i]).normalized())));

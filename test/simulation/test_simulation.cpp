@@ -9,6 +9,7 @@
 #include "contact/detector.h"
 #include "geometry/mesh_distance.h"
 #include "results/run_result.h"
+#include "simulation/instrument_tip.h"
 #include "simulation/replay_source.h"
 
 namespace endovascular_sim::simulation
@@ -49,7 +50,7 @@ struct Bench
     const std::vector<Eigen::Vector3d>& x = simulation->state().position;
     const std::vector<double>& radius = simulation->discretisation().radius;
     double deepest = 0.0;
-    for (std::size_t i = static_cast<std::size_t>(results::firstInsertedNode(*simulation)); i + 1 < x.size(); ++i)
+    for (std::size_t i = static_cast<std::size_t>(simulation::firstInsertedNode(*simulation)); i + 1 < x.size(); ++i)
       for (int k = 0; k < 6; ++k)
       {
         const double t = k / 6.0;
@@ -84,7 +85,7 @@ void expectInside(Bench& bench, double seconds, double deepest_allowed, int chec
       ASSERT_LE(bench.bruteForcePenetration(), deepest_allowed) << "step " << k;
     }
   }
-  for (int i = results::firstInsertedNode(*bench.simulation); i < bench.simulation->discretisation().nodes(); ++i)
+  for (int i = simulation::firstInsertedNode(*bench.simulation); i < bench.simulation->discretisation().nodes(); ++i)
     EXPECT_GT(geometry::windingNumber(bench.vessel.mesh, bench.simulation->state().position[i]), 0.5) << "node " << i;
 }
 

@@ -12,6 +12,7 @@
 #include "rod/kkt/kkt_stepper.h"
 #include "scene/scene_file.h"
 #include "session/session.h"
+#include "simulation/instrument_tip.h"
 #include "vessel/centreline/centreline.h"
 
 namespace endovascular_sim::benchmark
@@ -224,7 +225,7 @@ void insertedWire(const simulation::Simulation& simulation, double stiffness, st
 {
   const rod::State& state = simulation.state();
   const rod::Discretisation& wire = simulation.discretisation();
-  const int first = results::firstInsertedNode(simulation);
+  const int first = simulation::firstInsertedNode(simulation);
   const auto add = [&](const Eigen::Vector3d& position, double radius) {
     nodes.push_back({position, radius, std::isfinite(stiffness) ? rod::softWallTravel(radius) : 0.0});
   };

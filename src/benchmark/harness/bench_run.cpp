@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "results/run_result.h"
+#include "simulation/instrument_tip.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -26,7 +27,7 @@ double kineticEnergy(const simulation::Simulation& simulation)
 {
   double energy = 0.0;
   const rod::State& state = simulation.state();
-  for (int i = results::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+  for (int i = simulation::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
     energy += 0.5 * simulation.discretisation().mass[i] * state.velocity[i].squaredNorm();
   return energy;
 }
@@ -123,7 +124,7 @@ void BenchRun::checkEnergy(RunSummary& summary)
   if (wall() == nullptr)
     return;
   const rod::State& state = simulation().state();
-  for (int i = results::firstInsertedNode(simulation()); i < simulation().discretisation().nodes(); ++i)
+  for (int i = simulation::firstInsertedNode(simulation()); i < simulation().discretisation().nodes(); ++i)
     summary.nodes_outside += wall()->signedDistance(state.position[i]) < 0.0;
 }
 

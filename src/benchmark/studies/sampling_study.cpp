@@ -7,6 +7,7 @@
 #include "results/run_result.h"
 #include "scene/scene_file.h"
 #include "session/session.h"
+#include "simulation/instrument_tip.h"
 
 namespace endovascular_sim::benchmark
 {
@@ -131,7 +132,7 @@ Run runOnce(const Setting& setting, const scene::Scene& scene, const std::string
       before = wire.position;
       run.resampled.push_back(k);
     }
-    const double inserted = wire.nodes() - results::firstInsertedNode(simulation);
+    const double inserted = wire.nodes() - simulation::firstInsertedNode(simulation);
     run.result.mean_inserted_nodes += inserted;
     run.result.largest_inserted_nodes = std::max(run.result.largest_inserted_nodes, inserted);
     run.result.mean_simulated_nodes += wire.nodes() - simulation.state().first_node;

@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "benchmark/x_ray/median_time.h"
+#include "benchmark/x_ray/moving_adult.h"
 #include "common/text/format.h"
-#include "fluoroscopy/patient/change_cache.h"
+#include "fluoroscopy/motion/phase_grid.h"
 #include "fluoroscopy/patient/progressive_projection.h"
 #include "fluoroscopy/projection/moving_vessel.h"
 #include "fluoroscopy/projection/vessel_projection.h"
-#include "motion/moving_patient.h"
-#include "scene/file_search.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::benchmark
@@ -24,41 +23,7 @@ using fluoroscopy::ArealDensityImage;
 using fluoroscopy::BodyMotion;
 using fluoroscopy::MotionSampling;
 
-// Rates that no multiple of the frame rate repeats, as those of a person: 71 beats and 14.8 breaths per minute at 15/s.
-constexpr double kBeatsPerFrame = 0.0789;
-constexpr double kBreathsPerFrame = 0.01643;
 constexpr int kFramesPerSecond = 15;
-
-/** Motion of an adult with the heart of the default anatomy. */
-class MovingAdult
-{
-public:
-  explicit MovingAdult(const vessel::Vessel& vessel)
-    : settings_(motion::readMotion(scene::configFolder() + "/motion/adult.yaml")),
-      motion_(motion::placeHeart(vessel.centreline, settings_.region, {"benchmark", "motion."}), settings_)
-  {
-  }
-
-  BodyMotion at(double heart_phase, double breath_phase) const
-  {
-    const motion::PatientMotion::Instant instant =
-        motion_.at(heart_phase, settings_.heart.rate, breath_phase, settings_.breathing.rate);
-    return {motion_.map(instant), instant.shares.breath * settings_.breathing.diaphragm};
-  }
-
-  BodyMotion ofFrame(int frame) const
-  {
-    return at(std::fmod(frame * kBeatsPerFrame, 1.0), std::fmod(frame * kBreathsPerFrame, 1.0));
-  }
-
-  double systole() const { return settings_.heart.systolicShare(settings_.heart.rate); }
-  double inspiration() const { return settings_.breathing.inspiration; }
-  const motion::HeartFrame& heart() const { return motion_.frame(); }
-
-private:
-  motion::MotionSettings settings_;
-  motion::PatientMotion motion_;
-};
 
 /** Times of the frames in motion [ms]. */
 struct MotionTimes
@@ -75,14 +40,14 @@ MotionTimes timesOf(fluoroscopy::Fluoroscope& fluoroscope, const fluoroscopy::Pr
   for (int frame = 1; frame <= frames; ++frame)
   {
     const BodyMotion motion = adult.ofFrame(frame);
-    const std::uint64_t before = body.reusedFrames();
+    const std::uint64_t before = body.movedFrames() - body.reusedFrames();
     const double time = timeOf(
         [&]
         {
           fluoroscope.setMotion(motion);
           fluoroscope.render(wires);
         });
-    const bool taken = body.reusedFrames() > before;
+    const bool taken = body.movedFrames() - body.reusedFrames() == before;
     (taken ? times.taken : times.projected).push_back(time);
     late += frame > frames * 2 / 3 ? 1 : 0;
     late_taken += taken && frame > frames * 2 / 3 ? 1 : 0;
@@ -135,7 +100,7 @@ BodyMotion atTolerance(const MovingAdult& adult, double heart, double breath)
   for (double step = 1e-4; step < 0.3; step += 1e-4)
   {
     const BodyMotion next = adult.at(std::fmod(heart + 0.5 * step, 1.0), std::fmod(breath + step, 1.0));
-    if (fluoroscopy::distanceBetween(wanted, next) > fluoroscopy::ProgressiveProjection::kTolerance)
+    if (fluoroscopy::distanceBetween(wanted, next) > fluoroscopy::PhaseGrid::kTolerance)
       break;
     last = next;
   }
@@ -186,6 +151,7 @@ Section motionCost(CoronaryView& view, const StudyOptions& options)
                                                                       simulation::sequenceResolution(kFramesPerSecond));
     const fluoroscopy::ProgressiveProjection& body = *owned;
     fluoroscope.setPatient(std::move(owned));
+    fluoroscope.setPhases(std::make_shared<const fluoroscopy::PhaseGrid>(adult.motion()));
     const std::vector<fluoroscopy::XRayWire> wires = view.wires(system);
     for (int frame = 0; frame < kFramesPerSecond; ++frame)
       fluoroscope.render(wires);

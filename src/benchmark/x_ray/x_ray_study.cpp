@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmark/x_ray/contrast_table.h"
 #include "benchmark/x_ray/coronary_view.h"
 #include "benchmark/x_ray/median_time.h"
 #include "benchmark/x_ray/motion_tables.h"
@@ -104,6 +105,7 @@ std::vector<TableSpec> xRayTables()
             "refinement [ms]", "pixels with instruments"},
            ""},
           {"x_ray_triangles", "Path lengths in the vessel", {"triangles", "256² [ms]", "512² [ms]", "1024² [ms]"}, ""},
+          contrastTable(),
           motionCostTable(),
           motionErrorTable()};
 }
@@ -115,6 +117,8 @@ std::vector<Section> xRayStudy(const StudyOptions& options, const Progress& prog
   std::vector<Section> sections;
   sections.push_back(frames(view, options, progress));
   sections.push_back(triangles(view, options, progress));
+  progress(0.85, "contrast medium");
+  sections.push_back(contrastCost(view, options));
   progress(0.9, "moving patient");
   sections.push_back(motionCost(view, options));
   sections.push_back(motionErrors(view, options));

@@ -12,7 +12,8 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLossCoefficient = 1.52;  // K_t of Young & Tsai 1973
 constexpr double kLongestPart = 2.5e-4;    // [m]
-constexpr double kClosed = 0.02;           // free share of the healthy area below which a cell is closed
+constexpr double kFilled = 0.02;           // free share of the healthy area that an instrument fills
+constexpr double kClosed = 1e-3;           // free share of the healthy area below which a lumen is closed
 constexpr double kThin = 1e-3;             // ratio of radii below which an instrument has no effect
 
 }  // namespace
@@ -204,7 +205,7 @@ void Obstruction::partsOf(std::size_t index, std::vector<Part>& parts) const
       lumen = area;
       const double ratio = radius / std::sqrt(lumen / kPi);
       const double factor = ratio < kThin ? 1.0 : annulusFactor(ratio);
-      extra = lumen - kPi * radius * radius <= kClosed * cell.healthy
+      extra = lumen - kPi * radius * radius <= (radius > 0.0 ? kFilled : kClosed) * cell.healthy
                   ? std::numeric_limits<double>::infinity()
                   : factor / (lumen * lumen) - 1.0 / (cell.healthy * cell.healthy);
     }
@@ -261,7 +262,7 @@ double Obstruction::dropUpTo(std::size_t index, double arc, double area, double 
   // The last narrowest part in the direction of the flow.
   const auto throat = flow < 0.0 ? std::min_element(parts.begin(), parts.end(), isNarrower)
                                  : std::max_element(parts.rbegin(), parts.rend(), isWider).base() - 1;
-  const double least = std::max(area, kClosed * cell.healthy);
+  const double least = std::max(area, kFilled * cell.healthy);
   const double free = cell.friction * length / (least * least), jet = obstacles_[index].loss * std::abs(flow);
   return (free * share + extraOf(parts.begin(), here) + (throat < here ? jet : 0.0)) /
          (free + extraOf(parts.begin(), parts.end()) + jet);

@@ -45,7 +45,9 @@ double annulusFactor(double ratio);
  *  A cell is divided into parts of at most 0.25 mm; ends of instruments are rounded to them. The viscous resistance is
  *  that of the local area. Behind the narrowest place of a lesion the jet loses
  *  Δp = K_t ρ/(2A₀²)·(A₀/A_s − 1)²·Q|Q| with K_t = 1.52 (Young & Tsai 1973), A₀ the healthy area and A_s the free one.
- *  A lesion over several cells has one jet, that of the largest loss. A cell without a free area is closed.
+ *  A lesion over several cells has one jet, that of the largest loss. A cell is closed where the lumen has less than
+ * 0.1 % of the healthy area, 97 % of the diameter narrowed, and where an instrument leaves less than 2 %: it touches
+ * the wall of a lumen that is not round.
  *
  *  The obstacles are functions of the present lumens and instruments; only those of cells in which something changed
  *  are computed again. */

@@ -38,13 +38,16 @@ void FlowEngine::Sums::archive(Archive& archive)
 }
 
 FlowEngine::FlowEngine(const vessel::CentrelineTree& centreline, const std::vector<vessel::PlacedLesion>& lesions,
-                       const Circulation& circulation, double time_step, std::vector<LineSettings> lines)
+                       const Circulation& circulation, double time_step, std::vector<LineSettings> lines,
+                       std::vector<double> volumes)
   : behind_lesions_(placesBehind(lesions)),
     body_(withoutLesions(centreline, lesions), circulation, time_step,
           branchesWithLesions(centreline.branches.size(), lesions)),
     at_rest_(body_),
     line_settings_(std::move(lines))
 {
+  if (!volumes.empty())
+    contrast_.emplace(body_.vessel(), centreline, std::move(volumes));
 }
 
 void FlowEngine::setControls(const FlowControls& controls)
@@ -60,6 +63,8 @@ void FlowEngine::setControls(const FlowControls& controls)
 void FlowEngine::begin(const FlowRequest& request)
 {
   body_ = at_rest_;
+  if (contrast_)
+    contrast_->clear(body_.network());
   setControls(request.controls);
   body_.setObstruction(request.lumens, request.instruments);
   const unsigned end = body_.heart().beats() + kSettlingBeats;
@@ -93,7 +98,13 @@ void FlowEngine::step(const FlowRequest& request, FlowAnswer& answer)
     setControls(request.controls);
     body_.setObstruction(request.lumens, request.instruments);
   }
+  if (contrast_)
+    contrast_->beforeStep(request.injection, body_.network());
+  else if (request.injection.volume != 0.0)
+    throw std::invalid_argument("flow: contrast medium is injected into a vessel whose volumes are not known");
   body_.step();
+  if (contrast_)
+    contrast_->afterStep(body_.network());
   for (std::size_t k = 0; k < lines_.size(); ++k)
     lines_[k].step(pressureAtPlace(request.probes[k]), body_.network().settings().time_step);
   addToBeat(request);
@@ -162,6 +173,10 @@ void FlowEngine::fill(const FlowRequest& request, FlowField& field) const
   for (const PressureLine& line : lines_)
     field.readings.push_back(line.reading());
   field.means = means_;
+  field.iodine.clear();
+  field.totals = IodineTotals();
+  if (contrast_)
+    contrast_->fill(field);
 }
 
 void FlowEngine::archive(Archive& archive)
@@ -176,10 +191,26 @@ void FlowEngine::archive(Archive& archive)
   for (PressureLine& line : lines_)
     line.archive(archive);
   archive(sums_, means_);
-  if (!archive.reading())
+  if (archive.reading())
+  {
+    requireLength(lines_.size(), sums_.readings, means_.readings);
+    requireLength(behind_lesions_.size(), sums_.lesions, means_.lesions);
+  }
+  archiveContrast(archive);
+}
+
+/** The end of a state, which only states of vessels with contrast medium have. */
+void FlowEngine::archiveContrast(Archive& archive)
+{
+  const bool is_held = archive.reading() ? !archive.atEnd() : contrast_ && contrast_->isUsed();
+  if (archive.reading() && contrast_)
+    contrast_->clear(body_.network());
+  if (archive.reading() && !is_held)
+    body_.network().setInjected(0.0);
+  if (!is_held)
     return;
-  requireLength(lines_.size(), sums_.readings, means_.readings);
-  requireLength(behind_lesions_.size(), sums_.lesions, means_.lesions);
+  requireLoaded(contrast_.has_value(), "holds contrast medium, and the volumes of the vessel are not known");
+  contrast_->archive(archive, body_.network());
 }
 
 }  // namespace endovascular_sim::flow

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "flow/body/body_flow.h"
+#include "flow/coupling/contrast_flow.h"
 #include "flow/coupling/flow_source.h"
 #include "flow/measurement/pressure_line.h"
 #include "vessel/centreline/centreline.h"
@@ -28,16 +30,21 @@ public:
   /** Finds the resistances of the outlets in the healthy vessel, which takes about 0.2 s.
    *  @param lesions of the vessel; @p centreline has their radii
    *  @param time_step [s]
-   *  @throws InputError for a centreline without branches */
+   *  @param volumes of the lumen in each of contrastCells() [m³]; empty: no contrast medium can be injected
+   *  @throws InputError for a centreline without branches
+   *  @throws std::invalid_argument for another number of volumes than of cells, or one that is negative */
   FlowEngine(const vessel::CentrelineTree& centreline, const std::vector<vessel::PlacedLesion>& lesions,
-             const Circulation& circulation, double time_step, std::vector<LineSettings> lines);
+             const Circulation& circulation, double time_step, std::vector<LineSettings> lines,
+             std::vector<double> volumes = {});
 
   /** @throws ArchiveError for a state of another vessel
-   *  @throws std::invalid_argument for a request with too few places */
+   *  @throws std::invalid_argument for a request with too few places, or an injection that is not possible */
   void step(const FlowRequest& request, FlowAnswer& answer);
 
   const BodyFlow& body() const { return body_; }
   std::size_t lines() const { return lines_.size(); }
+  /** Contrast medium; null without volumes. */
+  const ContrastFlow* contrast() const { return contrast_ ? &*contrast_ : nullptr; }
 
 private:
   /** Sums over a beat. */
@@ -59,11 +66,13 @@ private:
   void endBeat(std::uint64_t step);
   void clearSums();
   void archive(Archive& archive);
+  void archiveContrast(Archive& archive);
   void fill(const FlowRequest& request, FlowField& field) const;
 
   std::vector<TreePlace> behind_lesions_;
   BodyFlow body_;
   BodyFlow at_rest_;  ///< in the healthy vessel, at the beginning of a beat
+  std::optional<ContrastFlow> contrast_;
   std::vector<LineSettings> line_settings_;
   std::vector<PressureLine> lines_;
   Sums sums_;

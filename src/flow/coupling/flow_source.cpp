@@ -36,13 +36,18 @@ void archive(Archive& archive, BeatMeans& means)
   archive(means.root, means.readings, means.lesions, means.hyperaemia, means.step);
 }
 
+void IodineTotals::archive(Archive& archive)
+{
+  archive(injected, inside, left);
+}
+
 void archive(Archive& archive, FlowAnswer& answer)
 {
   FlowField& field = answer.field;
   archive(answer.step, answer.state, field.phase, field.beats, field.ventricle, field.pressures, field.flows,
-          field.areas, field.probes, field.readings, field.means);
+          field.areas, field.probes, field.readings, field.means, field.iodine, field.totals);
   if (archive.reading())
-    requireFinite(field.pressures, field.flows, field.areas, field.readings);
+    requireFinite(field.pressures, field.flows, field.areas, field.readings, field.iodine);
 }
 
 }  // namespace endovascular_sim::flow

@@ -41,6 +41,22 @@ struct TreePlace
   double arc = 0.0;  ///< arc length on it [m]
 };
 
+/** Opening of an instrument through which contrast medium leaves. */
+struct FlowOpening
+{
+  TreePlace place;
+  double share = 1.0;  ///< of the volume, relative to the sum of all openings
+};
+
+/** Contrast medium that enters the vessel during a step. */
+struct FlowInjection
+{
+  double volume = 0.0;                ///< in the step [m³]; 0: none
+  double concentration = 0.0;         ///< iodine of the medium [kg/m³]
+  double viscosity = 0.0;             ///< of the medium [Pa·s]
+  std::vector<FlowOpening> openings;  ///< in the vessel
+};
+
 /** Input of one step of the flow. With it, the step is a function of its input alone. */
 struct FlowRequest
 {
@@ -49,6 +65,7 @@ struct FlowRequest
   std::vector<LumenProfile> lumens;         ///< of the lesions, in the present wall
   std::vector<InstrumentSpan> instruments;  ///< in the vessel
   std::vector<TreePlace> probes;            ///< openings of the pressure lines, then further places
+  FlowInjection injection;                  ///< during the step
   std::string state;                        ///< of the circulation before the step; empty: the beginning of a run
 };
 
@@ -60,6 +77,16 @@ struct BeatMeans
   std::vector<double> lesions;   ///< pressure behind each lesion [Pa]
   bool hyperaemia = false;       ///< during the whole beat
   std::uint64_t step = 0;        ///< number of the step of the flow that began the next beat
+};
+
+/** Iodine since the beginning of a run; that inside and that which left add up to what was injected [kg]. */
+struct IodineTotals
+{
+  double injected = 0.0;
+  double inside = 0.0;
+  double left = 0.0;  ///< through the outlets and the inlet
+
+  void archive(Archive& archive);
 };
 
 /** Pressure and flow in the vessel after a step. Cells and nodes are those of vesselFlowTree(). */
@@ -74,6 +101,8 @@ struct FlowField
   std::vector<double> probes;     ///< pressure at each place of the request; outside that of the air, 0 [Pa]
   std::vector<double> readings;   ///< of the pressure lines [Pa]
   BeatMeans means;
+  std::vector<double> iodine;  ///< concentration of each contrast cell [kg/m³]; empty while there is none
+  IodineTotals totals;
 };
 
 /** Result of one step of the flow. */

@@ -38,6 +38,7 @@ FlowNetwork::FlowNetwork(FlowTree tree, const FlowSettings& settings, double pre
   const std::size_t nodes = indexOf(tree_.nodes), cells = tree_.cells.size(), outlets = tree_.outlets.size();
   obstacles_.resize(cells);
   factors_.assign(outlets, 1.0);
+  viscosity_.assign(cells, 1.0);
   windkessels_.assign(outlets, WindkesselState(pressure));
   pressures_.assign(nodes, pressure);
   volumes_.resize(nodes);
@@ -125,6 +126,25 @@ void FlowNetwork::setResistanceFactor(std::size_t outlet, double factor)
   factors_[outlet] = factor;
 }
 
+void FlowNetwork::setSource(std::size_t node, double flow)
+{
+  if (node >= volumes_.size() || !std::isfinite(flow))
+    throw std::invalid_argument("flow network: a source needs a node of the network and a finite flow");
+  const auto source =
+      std::find_if(sources_.begin(), sources_.end(), [node](const Source& other) { return other.node == node; });
+  if (source != sources_.end())
+    sources_.erase(source);
+  if (flow != 0.0)
+    sources_.push_back({node, flow});
+}
+
+void FlowNetwork::setViscosityFactor(std::size_t cell, double factor)
+{
+  if (!(std::isfinite(factor) && factor > 0.0))
+    throw std::invalid_argument("flow network: the factor of a viscosity must be positive");
+  viscosity_.at(cell) = factor;
+}
+
 double FlowNetwork::meanExcess(std::size_t cell) const
 {
   return 0.5 * (excess(tree_.cells[cell].from) + excess(tree_.cells[cell].to));
@@ -182,8 +202,8 @@ void FlowNetwork::prepareMomentum()
     }
     const double gain = dt * free / (density * cell.length * cell.inertia);
     const double friction =
-        2.0 * (cell.profile + 2.0) * kPi * settings_.viscosity / (density * free) * dt / cell.inertia +
-        gain * (obstacle.resistance + obstacle.loss * std::abs(flows_[k]));
+        2.0 * (cell.profile + 2.0) * kPi * settings_.viscosity * viscosity_[k] / (density * free) * dt / cell.inertia +
+        gain * (obstacle.resistance * viscosity_[k] + obstacle.loss * std::abs(flows_[k]));
     const double difference = pressures_[indexOf(cell.to)] - pressures_[indexOf(cell.from)];
     const double driven = flows_[k] - dt / cell.inertia * convection(k) - (1.0 - theta) * gain * difference;
     explicit_flows_[k] = driven / (1.0 + friction);
@@ -229,6 +249,8 @@ void FlowNetwork::solve(double inflow)
   }
   for (std::size_t k = 0; k < tree_.outlets.size(); ++k)
     fixed[indexOf(tree_.outlets[k].node)] -= dt * windkessels_[k].constant();
+  for (const Source& source : sources_)
+    fixed[source.node] += dt * source.flow;
   for (int pass = 0; pass < kMostPasses; ++pass)
   {
     const double error = linearise();
@@ -319,6 +341,11 @@ void FlowNetwork::updateVolumes(double inflow)
     outflows_[k] = windkessels_[k].accept(outlet, pressures_[node]);
     volumes_[node] -= dt * outflows_[k];
     left_ += dt * outflows_[k];
+  }
+  for (const Source& source : sources_)
+  {
+    volumes_[source.node] += dt * source.flow;
+    injected_ += dt * source.flow;
   }
   limitOutflows();
   for (std::size_t node = 0; node < volumes_.size(); ++node)

@@ -87,6 +87,13 @@ public:
   /** Scales the resistances of an outlet from the next step on, e.g. by 1/3.5 in hyperaemia. */
   void setResistanceFactor(std::size_t outlet, double factor);
 
+  /** Fluid that enters at a node in every step from the next one on, e.g. through an instrument.
+   *  @param flow mean of each step [m³/s]; 0 ends it */
+  void setSource(std::size_t node, double flow);
+  void clearSources() { sources_.clear(); }
+  /** Scales the viscosity of the blood in a cell from the next step on, e.g. where contrast medium is mixed with it. */
+  void setViscosityFactor(std::size_t cell, double factor);
+
   /** Advances by one time step.
    *  @param inflow at node 0 at its end [m³/s]
    *  @param back for each outlet: pressure behind it at its end [Pa] */
@@ -108,12 +115,21 @@ public:
   /** Volume that has entered through node 0 and left through the outlets since the beginning [m³]. */
   double entered() const { return entered_; }
   double left() const { return left_; }
+  double injected() const { return injected_; }  ///< volume that sources have added since the beginning [m³]
   /** Volume that was added where inertia would have emptied a vessel [m³]; zero in all but sudden closures. */
   double supplied() const { return supplied_; }
 
-  /** The part that changes: obstacles and factors are set again by the owner.
+  /** Mean flow of a cell over the last step, which moved its blood [m³/s]. */
+  double meanFlow(std::size_t cell) const
+  {
+    return settings_.implicitness * flows_[cell] + (1.0 - settings_.implicitness) * old_flows_[cell];
+  }
+
+  /** The part that changes: obstacles, factors and sources are set again by the owner, and injected() by
+   *  setInjected(), so that archives of a network without sources do not hold it.
    *  @throws ArchiveError for an archive of another tree; the network must not be used afterwards */
   void archive(Archive& archive);
+  void setInjected(double volume) { injected_ = volume; }  ///< [m³]
 
 private:
   double excess(int node) const { return pressures_[static_cast<std::size_t>(node)] - settings_.reference_pressure; }
@@ -141,17 +157,26 @@ private:
     double length;  // [m]
   };
 
+  /** Fluid that enters at a node. */
+  struct Source
+  {
+    std::size_t node;
+    double flow;  // [m³/s]
+  };
+
   FlowTree tree_;
   FlowSettings settings_;
   std::vector<std::vector<HalfCell>> halves_;  // of each node
   std::vector<std::size_t> cell_to_;           // of each node but the first one: the cell that ends there
   std::vector<int> before_, after_;            // of each cell: its neighbours in its segment; −1 without one
   std::vector<FlowObstacle> obstacles_;
-  std::vector<double> factors_;  // of the resistances of each outlet
+  std::vector<double> factors_;    // of the resistances of each outlet
+  std::vector<double> viscosity_;  // of each cell, relative to the blood's
+  std::vector<Source> sources_;
   std::vector<WindkesselState> windkessels_;
   std::vector<double> pressures_, volumes_, flows_, outflows_;
   std::vector<double> smallest_volumes_, smallest_pressures_;  // of each node, at a vacuum
-  double inflow_ = 0.0, entered_ = 0.0, left_ = 0.0, supplied_ = 0.0;
+  double inflow_ = 0.0, entered_ = 0.0, left_ = 0.0, supplied_ = 0.0, injected_ = 0.0;
   std::vector<double> explicit_flows_, conductances_;  // of each cell: Q = explicit − conductance·(P_to − P_from)
   std::vector<double> old_flows_, areas_;
   std::vector<double> fixed_volumes_, diagonal_, right_side_;

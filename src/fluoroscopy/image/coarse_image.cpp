@@ -47,6 +47,7 @@ CoarseImage::CoarseImage(int pixels)
   values_.assign(static_cast<std::size_t>(bins_) * static_cast<std::size_t>(bins_), 0.0F);
   for (int i = 0; i < pixels; ++i)
   {
+    bin_of_.push_back(i / size_);
     const double x = (i + 0.5) / size_ - 0.5;  // in bins, 0 at the centre of the first one
     const int middle = static_cast<int>(std::lround(x));
     const double d = x - middle;
@@ -59,11 +60,6 @@ CoarseImage::CoarseImage(int pixels)
     }
     splines_.push_back(spline);
   }
-}
-
-int CoarseImage::pixelsOf(int bin) const
-{
-  return std::min(size_, pixels_ - bin * size_);
 }
 
 void CoarseImage::average(const std::vector<float>& image)
@@ -81,8 +77,7 @@ void CoarseImage::average(const std::vector<float>& image)
 void CoarseImage::addPixel(std::size_t pixel, float change)
 {
   const auto n = static_cast<std::size_t>(pixels_);
-  const int row = static_cast<int>(pixel / n) / size_, column = static_cast<int>(pixel % n) / size_;
-  at(row, column) += change / static_cast<float>(pixelsOf(row) * pixelsOf(column));
+  addPixel(static_cast<int>(pixel / n), static_cast<int>(pixel % n), change);
 }
 
 void CoarseImage::blur(double sigma, bool keep_mean)

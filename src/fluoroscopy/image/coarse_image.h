@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -28,6 +29,13 @@ public:
   /** Adds a change of one pixel of the full image to the mean of its bin. */
   void addPixel(std::size_t pixel, float change);
 
+  /** The same by row and column. */
+  void addPixel(int row, int column, float change)
+  {
+    const int r = bin_of_[static_cast<std::size_t>(row)], c = bin_of_[static_cast<std::size_t>(column)];
+    at(r, c) += change / static_cast<float>(pixelsOf(r) * pixelsOf(c));
+  }
+
   /** Convolves with a normalised Gaussian; bins outside of the image are zero.
    *  @param sigma standard deviation [pixel]
    *  @param keep_mean true: the weights are normalised at the edges too */
@@ -41,7 +49,7 @@ private:
   {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(bins_) + static_cast<std::size_t>(column);
   }
-  int pixelsOf(int bin) const;
+  int pixelsOf(int bin) const { return std::min(size_, pixels_ - bin * size_); }
 
   /** Bins and weights of a pixel. */
   struct Spline
@@ -52,6 +60,7 @@ private:
 
   int pixels_, size_, bins_;
   std::vector<float> values_;
+  std::vector<int> bin_of_;      ///< per row or column of the full image
   std::vector<Spline> splines_;  ///< per row or column of the full image
 };
 

@@ -34,6 +34,15 @@ public:
     return rows_[static_cast<std::size_t>(row)] * columns_[static_cast<std::size_t>(column)];
   }
 
+  /** Transmission of the field and of the blades at a pixel, as in apply() [1]. */
+  float transmission(int row, int column) const
+  {
+    constexpr auto kBlades = static_cast<float>(kTransmission);
+    return open_ ? 1.0F
+                 : kBlades + (1.0F - kBlades) * rows_[static_cast<std::size_t>(row)] *
+                                 columns_[static_cast<std::size_t>(column)];
+  }
+
   /** Attenuates the primary signal behind the blades. */
   void apply(std::vector<float>& signal) const;
 

@@ -12,11 +12,13 @@ namespace endovascular_sim::fluoroscopy
 namespace
 {
 
-constexpr float kBlack = -1.35F;       // d of grey value 0
-constexpr float kWhite = 0.85F;        // d of grey value 255
-constexpr double kCompression = 0.32;  // slope of the local mean
-constexpr double kSaturation = 0.55;   // largest contribution of the local mean
-constexpr double kLocal = 0.02;        // standard deviation of the local mean [m]
+constexpr float kBlack = -1.35F;           // d of grey value 0
+constexpr float kWhite = 0.85F;            // d of grey value 255
+constexpr float kBlackDifference = -0.6F;  // s of grey value 0
+constexpr float kWhiteDifference = 0.2F;   // s of grey value 255
+constexpr double kCompression = 0.32;      // slope of the local mean
+constexpr double kSaturation = 0.55;       // largest contribution of the local mean
+constexpr double kLocal = 0.02;            // standard deviation of the local mean [m]
 constexpr float kSmallestCount = 0.5F;
 constexpr double kLargestCount = 65535.0;  // saturation of the detector
 constexpr float kShutter = 20.0F;          // change of d behind the blades: black in any surroundings
@@ -130,7 +132,7 @@ void Display::magnify(int pixels)
 void Display::draw(int pixels, double width, double reference, const CoarseImage& counts, const Collimator& collimator,
                    const std::vector<std::uint16_t>& raw, std::vector<std::uint8_t>& image)
 {
-  const auto n = static_cast<std::size_t>(pixels), stride = n + 2;
+  const auto n = static_cast<std::size_t>(pixels);
   const double log_reference = std::log(reference);
   CoarseImage base = counts;
   for (float& value : base.values())
@@ -144,23 +146,65 @@ void Display::draw(int pixels, double width, double reference, const CoarseImage
     value =
         static_cast<float>(kSaturation * std::tanh(kCompression / kSaturation * static_cast<double>(value))) - value;
   compress(pixels, base, static_cast<float>(log_reference), collimator, raw);
-  for (std::size_t row = 1; row <= n; ++row)  // margin: the edge pixel repeated
-  {
-    detail_[row * stride] = detail_[row * stride + 1];
-    detail_[row * stride + n + 1] = detail_[row * stride + n];
-  }
-  std::copy_n(detail_.begin() + static_cast<std::ptrdiff_t>(stride), stride, detail_.begin());
-  std::copy_n(detail_.begin() + static_cast<std::ptrdiff_t>(n * stride), stride,
-              detail_.begin() + static_cast<std::ptrdiff_t>((n + 1) * stride));
+  addOverlay(n);
+  repeatEdge(n);
   filter();
   magnify(pixels);
+  applyWindow(pixels, static_cast<float>(settings_.edge_enhancement), image);
+}
+
+void Display::drawDifference(int pixels, const Collimator& collimator, const std::vector<float>& difference,
+                             std::vector<std::uint8_t>& image)
+{
+  constexpr float kScale = (kWhite - kBlack) / (kWhiteDifference - kBlackDifference);
+  const float shutter = settings_.inverted ? kShutter : -kShutter;
+  const auto n = static_cast<std::size_t>(pixels), stride = n + 2;
+  detail_.resize(stride * stride);
+  for (std::size_t row = 0; row < n; ++row)
+    for (std::size_t column = 0; column < n; ++column)
+    {
+      const float share = collimator.share(static_cast<int>(row), static_cast<int>(column));
+      detail_[(row + 1) * stride + column + 1] =
+          kBlack + kScale * (difference[row * n + column] - kBlackDifference) + shutter * (1.0F - share);
+    }
+  repeatEdge(n);
+  magnify(pixels);
+  applyWindow(pixels, 0.0F, image);
+}
+
+void Display::addOverlay(std::size_t pixels)
+{
+  if (overlay_.size() != pixels * pixels)
+    return;
+  for (std::size_t row = 0; row < pixels; ++row)
+    for (std::size_t column = 0; column < pixels; ++column)
+      detail_[(row + 1) * (pixels + 2) + column + 1] += overlay_[row * pixels + column];
+}
+
+/** Fills the margin of detail_ with the pixels at the edge. */
+void Display::repeatEdge(std::size_t pixels)
+{
+  const std::size_t stride = pixels + 2;
+  for (std::size_t row = 1; row <= pixels; ++row)
+  {
+    detail_[row * stride] = detail_[row * stride + 1];
+    detail_[row * stride + pixels + 1] = detail_[row * stride + pixels];
+  }
+  std::copy_n(detail_.begin() + static_cast<std::ptrdiff_t>(stride), stride, detail_.begin());
+  std::copy_n(detail_.begin() + static_cast<std::ptrdiff_t>(pixels * stride), stride,
+              detail_.begin() + static_cast<std::ptrdiff_t>((pixels + 1) * stride));
+}
+
+/** Grey values of detail_. @param edge weight of the edges */
+void Display::applyWindow(int pixels, float edge, std::vector<std::uint8_t>& image) const
+{
+  const auto n = static_cast<std::size_t>(pixels), stride = n + 2;
   image.resize(n * n);
   const float sign = settings_.inverted ? -1.0F : 1.0F;
   for (std::size_t row = 0; row < n; ++row)
   {
     const float* middle = detail_.data() + (row + 1) * stride + 1;
-    window(middle - stride, middle, middle + stride, static_cast<float>(settings_.edge_enhancement), sign,
-           image.data() + row * n, pixels);
+    window(middle - stride, middle, middle + stride, edge, sign, image.data() + row * n, pixels);
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fluoroscopy/image/coarse_image.h"
@@ -25,7 +27,10 @@ struct DisplaySettings
  *      d = (l − b) + s·tanh(c b / s),  c = 0.32, s = 0.55,   grey = 255·(d + 1.35)/(0.85 + 1.35).
  *
  *  Detail keeps its contrast in dark and bright surroundings. The window does not depend on the frame. The recursive
- * filter acts on d, so that it affects the display only. */
+ * filter acts on d, so that it affects the display only. An overlay, e.g. a roadmap, is added to d.
+ *
+ *  A difference s of logarithms (DSA) has a window of its own, without compression, enhancement and filter:
+ * grey = 255·(s + 0.6)/(0.2 + 0.6). */
 class Display
 {
 public:
@@ -40,18 +45,29 @@ public:
   void draw(int pixels, double width, double reference, const CoarseImage& counts, const Collimator& collimator,
             const std::vector<std::uint16_t>& raw, std::vector<std::uint8_t>& image);
 
+  /** Draws a difference of logarithms, e.g. of DSA.
+   *  @param difference s, row-major */
+  void drawDifference(int pixels, const Collimator& collimator, const std::vector<float>& difference,
+                      std::vector<std::uint8_t>& image);
+
+  /** Overlay of the frames from now on. @param overlay added to d, row-major; of another size: none */
+  void setOverlay(std::vector<float> overlay) { overlay_ = std::move(overlay); }
+
   /** Forgets the preceding frame. */
   void reset() { has_previous_ = false; }
 
 private:
   void compress(int pixels, const CoarseImage& base, float log_reference, const Collimator& collimator,
                 const std::vector<std::uint16_t>& raw);
+  void addOverlay(std::size_t pixels);
+  void repeatEdge(std::size_t pixels);
   void filter();
   void magnify(int pixels);
+  void applyWindow(int pixels, float edge, std::vector<std::uint8_t>& image) const;
 
   DisplaySettings settings_;
   bool has_previous_ = false;
-  std::vector<float> detail_, previous_, work_;
+  std::vector<float> detail_, previous_, work_, overlay_;
 };
 
 }  // namespace endovascular_sim::fluoroscopy

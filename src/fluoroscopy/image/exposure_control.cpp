@@ -1,5 +1,6 @@
 #include "fluoroscopy/image/exposure_control.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
@@ -24,7 +25,6 @@ ExposureControl::ExposureControl(const Beam& beam, const ExposureSettings& setti
 {
   requirePositive("detector_dose", settings.detector_dose);
   requirePositive("rate", settings.rate);
-  requirePositive("time_constant", settings.time_constant);
   requirePositive("max_air_kerma_rate", settings.max_air_kerma_rate);
 }
 
@@ -34,16 +34,16 @@ double ExposureControl::referenceKerma(double tube_charge, double source_to_pati
   return tube_charge * entrance_kerma_ / (distance * distance);
 }
 
-double ExposureControl::next(double log_signal, double source_to_detector, double source_to_patient)
+double ExposureControl::largestCharge(double source_to_patient) const
 {
-  const double measured = water_.thickness(log_signal);
-  const double step = 1.0 - std::exp(-1.0 / (settings_.rate * settings_.time_constant));
-  thickness_ = thickness_ ? *thickness_ + step * (measured - *thickness_) : measured;
-  const double wanted =
-      settings_.detector_dose * source_to_detector * source_to_detector / water_.detectorKerma(*thickness_);
-  const double highest = settings_.max_air_kerma_rate / settings_.rate / referenceKerma(1.0, source_to_patient);
-  limited_ = wanted > highest;
-  return limited_ ? highest : wanted;
+  return settings_.max_air_kerma_rate / settings_.rate / referenceKerma(1.0, source_to_patient);
+}
+
+double ExposureControl::tubeCharge(double log_signal, double source_to_detector, double source_to_patient) const
+{
+  const double kerma = water_.detectorKerma(water_.thickness(log_signal));
+  const double wanted = settings_.detector_dose * source_to_detector * source_to_detector / kerma;
+  return std::min(wanted, largestCharge(source_to_patient));
 }
 
 }  // namespace endovascular_sim::fluoroscopy

@@ -23,33 +23,50 @@ ProgressiveProjection::ProgressiveProjection(std::shared_ptr<const VolumeProject
                      "needs 1 to 4096 rays per side and at least 1 ray per frame");
 }
 
-void ProgressiveProjection::restart(const XRayGeometry& geometry)
+/** Begins anew after a movement.
+ *  @return false if nothing has moved */
+bool ProgressiveProjection::begin(const XRayGeometry& geometry)
 {
+  if (started_ && geometry.pose() == pose_)
+    return false;
   started_ = true;
   pose_ = geometry.pose();
-  next_row_ = resolution_.moving == resolution_.at_rest ? refined_.samples : 0;  // nothing to refine
-  still_ = resampled(projection_->project(geometry, resolution_.moving), geometry.pixels());
+  next_row_ = 0;
   changes_.clear();
+  return true;
 }
 
-/** Brings the image of the resting patient up to date.
- *  @return true if it has changed */
-bool ProgressiveProjection::updateStill(const XRayGeometry& geometry)
+/** Projects further rows of the final image, and shows it when it has all of them. */
+void ProgressiveProjection::refine(const XRayGeometry& geometry, int rows)
 {
-  if (!started_ || geometry.pose() != pose_)
-  {
-    restart(geometry);
-    return true;
-  }
-  if (isFinal())
-    return false;
-  const int rows = std::max(1, resolution_.rays_per_frame / refined_.samples);
   const int end = std::min(next_row_ + rows, refined_.samples);
   projection_->projectRows(geometry, next_row_, end, refined_);
   next_row_ = end;
-  if (isFinal())
-    still_ = resampled(refined_, geometry.pixels());
-  return isFinal();
+  if (!isComplete())
+    return;
+  still_ = resampled(refined_, geometry.pixels());
+  still_is_new_ = true;
+}
+
+void ProgressiveProjection::complete(const XRayGeometry& geometry)
+{
+  begin(geometry);
+  if (!isComplete())
+    refine(geometry, refined_.samples);
+}
+
+/** Brings the image of the resting patient up to date. */
+void ProgressiveProjection::updateStill(const XRayGeometry& geometry)
+{
+  if (begin(geometry))
+  {
+    if (resolution_.moving == resolution_.at_rest)  // nothing to refine
+      return refine(geometry, refined_.samples);
+    still_ = resampled(projection_->project(geometry, resolution_.moving), geometry.pixels());
+    still_is_new_ = true;
+  }
+  else if (!isComplete())
+    refine(geometry, std::max(1, resolution_.rays_per_frame / refined_.samples));
 }
 
 void ProgressiveProjection::setMotion(const BodyMotion& motion)
@@ -64,29 +81,27 @@ void ProgressiveProjection::setMotion(const BodyMotion& motion)
   changes_.clear();
 }
 
-/** Change by the present motion: that of an earlier phase, or a new one. */
+/** Change by the present motion: the one that is known, or a new one. */
 const std::vector<float>& ProgressiveProjection::change(const XRayGeometry& geometry)
 {
-  const bool exact = resolution_.motion == MotionSampling::kExact;
-  if (!exact)
-    if (const std::vector<float>* earlier = changes_.find(motion_))
-    {
-      ++reused_frames_;
-      return *earlier;
-    }
+  if (const std::vector<float>* known = changes_.find(motion_))
+  {
+    ++reused_frames_;
+    return *known;
+  }
   change_ = moved_tissue_->change(geometry, resolution_.moving, motion_, resolution_.motion);
-  if (!exact)
+  if (resolution_.motion == MotionSampling::kFast)  // single images have no other ones to come
     changes_.put(motion_, change_);
   return change_;
 }
 
 const ArealDensityImage& ProgressiveProjection::frame(const XRayGeometry& geometry)
 {
-  const bool still_is_new = updateStill(geometry);
-  if (still_is_new || motion_is_new_)
+  updateStill(geometry);
+  if (still_is_new_ || motion_is_new_)
   {
     ++revision_;
-    motion_is_new_ = false;
+    still_is_new_ = motion_is_new_ = false;
     if (!motion_.resting())
     {
       ++moved_frames_;

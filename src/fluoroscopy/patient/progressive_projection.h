@@ -19,23 +19,22 @@ struct ProgressiveResolution
   int moving = 128;                               ///< rays per side of the first image after a movement
   int at_rest = 256;                              ///< rays per side of the final image
   int rays_per_frame = 8192;                      ///< rays of the final image per call: 256² in 8 frames
-  MotionSampling motion = MotionSampling::kFast;  ///< of the moving heart and lungs; kExact uses no earlier phase
+  MotionSampling motion = MotionSampling::kFast;  ///< of the moving heart and lungs
 };
 
 /** Projection of the patient for a sequence of frames: coarse in the frame after a movement of C-arm or table, then
  * refined by a fixed number of rays per frame. The refined image replaces the coarse one as a whole.
  *
- *  The work is counted in rays and reads no clock. The image of a frame depends only on the number of frames since the
- *  last movement, and the image at rest only on geometry and volume.
+ *  The work is counted in rays and reads no clock. An image is either the coarse or the final one; both depend on
+ *  geometry, volume and motion alone.
  *
  *  The motion of heart and lungs adds the change of MovedTissue, at the resolution of the first image, so that bones
- * keep the final one. With kFast, the change of an earlier frame in the same pose is taken again if its motion differs
- * by at most kTolerance (ChangeCache). With kExact an image depends on geometry, volume and motion alone. */
+ * keep the final one. The change of an equal motion in the same pose is kept (ChangeCache); a PhaseGrid limits the
+ * number of motions. */
 class ProgressiveProjection : public Patient
 {
 public:
-  static constexpr double kTolerance = 0.7e-3;                   ///< of the places at an earlier phase [m]
-  static constexpr std::size_t kMemory = std::size_t{96} << 20;  ///< for the changes at earlier phases [bytes]
+  static constexpr std::size_t kMemory = std::size_t{96} << 20;  ///< for the changes at earlier motions [bytes]
 
   explicit ProgressiveProjection(const patient::DensityVolume& volume, const ProgressiveResolution& resolution = {});
 
@@ -45,15 +44,15 @@ public:
 
   const ArealDensityImage& frame(const XRayGeometry& geometry) override;
 
+  void complete(const XRayGeometry& geometry) override;
+  bool isComplete() const override { return next_row_ >= refined_.samples; }
+
   void setMotion(const BodyMotion& motion) override;
 
-  /** Frames in motion so far: all, and those that took the change of an earlier phase. @{ */
+  /** Frames in motion so far: all, and those that took the change of an earlier one. @{ */
   std::uint64_t movedFrames() const { return moved_frames_; }
   std::uint64_t reusedFrames() const { return reused_frames_; }
   /** @} */
-
-  /** True if the last frame has the final resolution. */
-  bool isFinal() const { return next_row_ >= refined_.samples; }
 
   int revision() const override { return revision_; }
 
@@ -61,8 +60,9 @@ public:
   double lumenDensity() const override { return patient::propertiesOf(patient::Tissue::kBlood).density; }
 
 private:
-  void restart(const XRayGeometry& geometry);
-  bool updateStill(const XRayGeometry& geometry);
+  bool begin(const XRayGeometry& geometry);
+  void refine(const XRayGeometry& geometry, int rows);
+  void updateStill(const XRayGeometry& geometry);
   const std::vector<float>& change(const XRayGeometry& geometry);
 
   std::shared_ptr<const VolumeProjection> projection_;
@@ -72,12 +72,13 @@ private:
   int next_row_ = 0;  ///< of the refined image
   int revision_ = 0;
   ArealDensityImage refined_;
-  ArealDensityImage still_;  ///< patient at rest
+  ArealDensityImage still_;    ///< patient at rest
+  bool still_is_new_ = false;  ///< since the last frame
 
   BodyMotion motion_;
   bool motion_is_new_ = false;               ///< since the last frame
   std::optional<MovedTissue> moved_tissue_;  ///< of the heart of the last motion
-  ChangeCache changes_{kTolerance, kMemory};
+  ChangeCache changes_{kMemory};
   std::vector<float> change_;  ///< where changes_ does not hold it
   ArealDensityImage image_;    ///< moved patient
   std::uint64_t moved_frames_ = 0, reused_frames_ = 0;

@@ -1,6 +1,7 @@
 #include "fluoroscopy/projection/coaxial_stack.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "common/error.h"
@@ -26,34 +27,62 @@ std::vector<double> changes(const std::vector<XRayInstrument>& instruments, cons
   return result;
 }
 
-/** Cross section at a distance from the last node. */
-WireProfile profileAt(double from_end, const std::vector<XRayInstrument>& instruments,
-                      const std::vector<double>& behind, const LocalFluids& fluids)
+/** Stack of instruments whose tips lie at different distances from the last node. */
+struct Stack
 {
-  WireProfile profile;
-  for (std::size_t k = 0; k < instruments.size(); ++k)
+  const std::vector<XRayInstrument>& instruments;
+  const std::vector<double>& behind;
+  const std::vector<DeviceDensity>& lumens;
+
+  const DeviceDensity& lumen(std::size_t k, const LocalFluids& fluids) const
   {
-    const double from_tip = from_end - behind[k];
-    if (from_tip <= 0.0)
-      continue;
-    const double radius = instruments[k].radius(from_tip);
-    bool enclosed = false;
-    for (std::size_t other = 0; other < instruments.size(); ++other)
-      enclosed = enclosed || (other != k && from_end > behind[other] && instruments[other].innerRadius() >= radius);
-    instruments[k].appendLayers(from_tip, enclosed ? fluids.lumen : fluids.around, fluids.lumen, profile);
+    return lumens.empty() ? fluids.lumen : lumens[k];
   }
-  return profile;
-}
+
+  /** Fluid around an instrument: that in the narrowest lumen which holds it there, or that around the stack. */
+  const DeviceDensity& around(std::size_t k, double radius, double from_end, const LocalFluids& fluids) const
+  {
+    const DeviceDensity* result = &fluids.around;
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (std::size_t other = 0; other < instruments.size(); ++other)
+    {
+      const double inner = instruments[other].innerRadius();
+      if (other == k || from_end <= behind[other] || inner < radius || inner >= narrowest)
+        continue;
+      narrowest = inner;
+      result = &lumen(other, fluids);
+    }
+    return *result;
+  }
+
+  /** Cross section at a distance from the last node. */
+  WireProfile profileAt(double from_end, const LocalFluids& fluids) const
+  {
+    WireProfile profile;
+    for (std::size_t k = 0; k < instruments.size(); ++k)
+    {
+      const double from_tip = from_end - behind[k];
+      if (from_tip > 0.0)
+        instruments[k].appendLayers(from_tip, around(k, instruments[k].radius(from_tip), from_end, fluids),
+                                    lumen(k, fluids), profile);
+    }
+    return profile;
+  }
+};
 
 }  // namespace
 
 XRayWire coaxialStack(const std::vector<Eigen::Vector3d>& nodes, const std::vector<XRayInstrument>& instruments,
-                      const std::vector<double>& behind, const std::vector<LocalFluids>& fluids)
+                      const std::vector<double>& behind, const std::vector<LocalFluids>& fluids,
+                      const std::vector<DeviceDensity>& lumens)
 {
   if (behind.size() != instruments.size())
     throw InputError("X-ray instruments", "behind", "must have one value per instrument");
+  if (!lumens.empty() && lumens.size() != instruments.size())
+    throw InputError("X-ray instruments", "lumens", "must have one value per instrument, or none");
   if (fluids.empty() || (fluids.size() > 1 && fluids.size() + 1 != nodes.size()))
     throw InputError("X-ray instruments", "fluids", "must have one value, or one per edge of the centreline");
+  const Stack stack{instruments, behind, lumens};
   XRayWire wire;
   if (nodes.size() < 2)
     return wire;
@@ -76,11 +105,10 @@ XRayWire coaxialStack(const std::vector<Eigen::Vector3d>& nodes, const std::vect
       if (cut > from - kShortest)
         continue;
       const double weight = (from_end[j] - cut) / (from_end[j] - to);
-      appendEdge(wire, nodes[j] + weight * (nodes[j + 1] - nodes[j]),
-                 profileAt(0.5 * (from + cut), instruments, behind, local));
+      appendEdge(wire, nodes[j] + weight * (nodes[j + 1] - nodes[j]), stack.profileAt(0.5 * (from + cut), local));
       from = cut;
     }
-    appendEdge(wire, nodes[j + 1], profileAt(0.5 * (from + to), instruments, behind, local));
+    appendEdge(wire, nodes[j + 1], stack.profileAt(0.5 * (from + to), local));
   }
   return wire;
 }

@@ -38,6 +38,7 @@ void MovingVessel::divide(const motion::Fade& fade)
     return;
   fade_ = fade;
   pose_.reset();
+  positions_ = mesh_.vertices;
   vertices_.clear(), rest_.clear(), moving_.clear(), fixed_.clear();
   std::vector<char> moves(mesh_.vertices.size(), 0);
   for (std::size_t k = 0; k < mesh_.vertices.size(); ++k)
@@ -80,7 +81,10 @@ void MovingVessel::project(const XRayGeometry& geometry, const motion::MotionMap
   projectFixed(geometry);
   map.positions(rest_, moved_);
   for (std::size_t k = 0; k < vertices_.size(); ++k)
+  {
     corners_[static_cast<std::size_t>(vertices_[k])] = projectCorner(geometry, moved_[k]);
+    positions_[static_cast<std::size_t>(vertices_[k])] = moved_[k];
+  }
   lengths_ = fixed_sum_;
   addTriangles(moving_, corners_, geometry, lengths_);
   depthsToLengths(geometry, lengths_);

@@ -32,6 +32,14 @@ public:
   /** Path length of each pixel's ray [m], as vesselPathLength(). */
   const std::vector<double>& lengths() const { return lengths_; }
 
+  /** Vertices in the image of the last projection, where a motion has moved them. @pre the map did not rest */
+  const std::vector<Corner>& corners() const { return corners_; }
+  /** Their positions [m]. */
+  const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
+
+  /** Vertices of the mesh that the last motion moves. */
+  const std::vector<int>& movingVertices() const { return vertices_; }
+
   /** Number of triangles that the last motion moves; 0 before. */
   std::size_t movingTriangles() const { return moving_.size(); }
 
@@ -46,6 +54,7 @@ private:
   std::vector<Eigen::Vector3i> moving_, fixed_;  ///< triangles
   std::optional<CArmPose> pose_;                 ///< of corners_ and fixed_sum_
   std::vector<Corner> corners_;                  ///< of all vertices
+  std::vector<Eigen::Vector3d> positions_;       ///< of all vertices, moved [m]
   std::vector<double> fixed_sum_;                ///< signed depths of the fixed triangles
   std::vector<double> lengths_;
 };

@@ -17,6 +17,12 @@ public:
    * per side. Valid until the next call. */
   virtual const ArealDensityImage& frame(const XRayGeometry& geometry) = 0;
 
+  /** Brings the image at this geometry to its final resolution at once. A phantom has no other one. */
+  virtual void complete(const XRayGeometry& /*geometry*/) {}
+
+  /** True if the last frame had the final resolution. */
+  virtual bool isComplete() const { return true; }
+
   /** Moves heart and lungs, from the next frame on. A phantom does not move. */
   virtual void setMotion(const BodyMotion& /*motion*/) {}
 

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 namespace endovascular_sim::motion
 {
 namespace
 {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLeastStretch = 0.2;  // of the bound by the local deformation; maps that fold space are refused before
@@ -25,15 +22,6 @@ double between(const std::vector<double>& values, std::size_t edge, double param
 {
   const std::size_t next = std::min(edge + 1, values.size() - 1);
   return (1.0 - parameter) * values[edge] + parameter * values[next];
-}
-
-/** Normal of the moved wall: that of the wall at rest by the cofactors of the gradient, unit. */
-Vector3d movedNormal(const Matrix3d& gradient, const Vector3d& normal)
-{
-  Matrix3d cofactor;
-  for (int i = 0; i < 3; ++i)
-    cofactor.row(i) = gradient.row((i + 1) % 3).cross(gradient.row((i + 2) % 3));
-  return (cofactor * normal).normalized();
 }
 
 MotionMap restingMap()
@@ -123,20 +111,31 @@ void MovingWall::pushForward(const contact::Query& query, contact::ContactSet& s
   set.free_distance.resize(query.nodes.empty() ? 0 : query.nodes.size() - 1);
   for (std::size_t j = 0; j < set.free_distance.size(); ++j)
     set.free_distance[j] = std::min(query.margin[j], query.margin[j + 1]);
+  takeWall(rest_set_.features);
+  map_.pushForward(wall_points_, wall_normals_);
   set.features.clear();
-  for (const contact::Feature& at_rest : rest_set_.features)
+  for (std::size_t k = 0; k < rest_set_.features.size(); ++k)
   {
-    const auto edge = static_cast<std::size_t>(at_rest.edge - query.first_node);
-    contact::Feature feature = at_rest;
-    if (!map_.outside(at_rest.point))
-    {
-      feature.point = map_.position(at_rest.point);
-      feature.normal = movedNormal(map_.gradient(at_rest.point), at_rest.normal);
-    }
+    contact::Feature feature = rest_set_.features[k];
+    const auto edge = static_cast<std::size_t>(feature.edge - query.first_node);
+    feature.point = wall_points_[k];
+    feature.normal = wall_normals_[k];
     feature.gap = feature.normal.dot(between(query.nodes, edge, feature.parameter) - feature.point) -
                   between(query.radius, edge, feature.parameter);
     if (feature.gap < between(query.margin, edge, feature.parameter))
       set.features.push_back(feature);
+  }
+}
+
+/** Copies points and normals of features. */
+void MovingWall::takeWall(const std::vector<contact::Feature>& features) const
+{
+  wall_points_.clear();
+  wall_normals_.clear();
+  for (const contact::Feature& feature : features)
+  {
+    wall_points_.push_back(feature.point);
+    wall_normals_.push_back(feature.normal);
   }
 }
 
@@ -183,17 +182,19 @@ void MovingWall::move(double from, double to, const std::vector<Vector3d>& point
 /** The place at rest of a feature follows from that of the wire beside it by one Newton step, to 0.1 µm and better. */
 void MovingWall::carry(std::vector<contact::Feature>& features) const
 {
-  for (contact::Feature& feature : features)
+  takeWall(features);
+  guesses_ = wall_points_;
+  for (std::size_t k = 0; k < features.size(); ++k)
   {
-    const auto edge = static_cast<std::size_t>(feature.edge);
-    if (edge >= points_.size() || before_.outside(feature.point))
-      continue;
-    const Vector3d guess =
-        between(rest_, edge, feature.parameter) + feature.point - between(points_, edge, feature.parameter);
-    const Vector3d point = guess + before_.gradient(guess).inverse() * (feature.point - before_.position(guess));
-    const Vector3d normal = (before_.gradient(point).transpose() * feature.normal).normalized();
-    feature.normal = movedNormal(map_.gradient(point), normal);
-    feature.point += map_.displacement(point) - before_.displacement(point);
+    const auto edge = static_cast<std::size_t>(features[k].edge);
+    if (edge < points_.size())
+      guesses_[k] += between(rest_, edge, features[k].parameter) - between(points_, edge, features[k].parameter);
+  }
+  before_.carryTo(map_, guesses_, wall_points_, wall_normals_);
+  for (std::size_t k = 0; k < features.size(); ++k)
+  {
+    features[k].point = wall_points_[k];
+    features[k].normal = wall_normals_[k];
   }
 }
 

@@ -41,6 +41,7 @@ private:
   double stretchAt(std::size_t node, double distance) const;
   double sagAt(const contact::Query& query, std::size_t node) const;
   void pushForward(const contact::Query& query, contact::ContactSet& set) const;
+  void takeWall(const std::vector<contact::Feature>& features) const;
   void beginAnswer(contact::ContactSet& set) const;
 
   contact::ContactSource* source_;
@@ -49,6 +50,7 @@ private:
   MotionMap step_begin_, step_end_;             ///< of the present step
   MotionMap before_, map_;                      ///< before and after the last move
   std::vector<Eigen::Vector3d> points_, rest_;  ///< points of the last move before it, and their places at rest [m]
+  mutable std::vector<Eigen::Vector3d> wall_points_, wall_normals_, guesses_;  ///< of features, kept for their memory
   contact::Query rest_query_;
   contact::ContactSet rest_set_;
   std::vector<double> deformation_;  ///< at every node of the last query [1]

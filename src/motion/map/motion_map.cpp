@@ -55,6 +55,15 @@ EVS_WIDE_VECTORS void measure(const FieldTerms& terms, const Packet& packet, Wid
     }
 }
 
+/** Cofactors of a gradient: they turn normals of the wall at rest into those of the moved one, up to their length. */
+[[gnu::always_inline]] inline void cofactors(const Wide (&g)[3][3], Wide (&cofactor)[3][3])
+{
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      cofactor[i][j] = g[(i + 1) % 3][(j + 1) % 3] * g[(i + 2) % 3][(j + 2) % 3] -
+                       g[(i + 1) % 3][(j + 2) % 3] * g[(i + 2) % 3][(j + 1) % 3];
+}
+
 /** Motion of material at the places of a packet.
  *  @param now field of the present map
  *  @param change of the field
@@ -66,6 +75,7 @@ EVS_WIDE_VECTORS void moveMaterial(const FieldTerms& now, const FieldTerms& chan
   evaluate(now, packet.rest, at);
   Wide g[3][3], d[3][3], cofactor[3][3];
   differentiate(now, at, g);
+  cofactors(g, cofactor);
   evaluate(change, packet.rest, at);
   differentiate(change, at, d);
   for (int i = 0; i < 3; ++i)
@@ -73,10 +83,6 @@ EVS_WIDE_VECTORS void moveMaterial(const FieldTerms& now, const FieldTerms& chan
     displacement[i] = at.weight * at.value[i];
     d[i][i] = d[i][i] - 1.0;
   }
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      cofactor[i][j] = g[(i + 1) % 3][(j + 1) % 3] * g[(i + 2) % 3][(j + 2) % 3] -
-                       g[(i + 1) % 3][(j + 2) % 3] * g[(i + 2) % 3][(j + 1) % 3];
   const Wide half = 0.5 / (g[0][0] * cofactor[0][0] + g[0][1] * cofactor[0][1] + g[0][2] * cofactor[0][2]);
   Wide change_of[3][3];  // d times the adjugate of g
   for (int i = 0; i < 3; ++i)
@@ -84,6 +90,45 @@ EVS_WIDE_VECTORS void moveMaterial(const FieldTerms& now, const FieldTerms& chan
       change_of[i][j] = d[i][0] * cofactor[j][0] + d[i][1] * cofactor[j][1] + d[i][2] * cofactor[j][2];
   for (int i = 0; i < 3; ++i)
     turn[i] = half * (change_of[(i + 2) % 3][(i + 1) % 3] - change_of[(i + 1) % 3][(i + 2) % 3]);
+}
+
+/** Moves the wall at the places of a packet. @param normal at rest; of any length in the moved patient */
+EVS_WIDE_VECTORS void moveWall(const FieldTerms& terms, const Packet& packet, Wide (&moved)[3], Wide (&normal)[3])
+{
+  FieldPoint<Wide> at;
+  evaluate(terms, packet.rest, at);
+  Wide g[3][3], cofactor[3][3];
+  differentiate(terms, at, g);
+  cofactors(g, cofactor);
+  const Wide n[3] = {normal[0], normal[1], normal[2]};
+  for (int i = 0; i < 3; ++i)
+  {
+    moved[i] = packet.rest[i] + at.weight * at.value[i];
+    normal[i] = cofactor[i][0] * n[0] + cofactor[i][1] * n[1] + cofactor[i][2] * n[2];
+  }
+}
+
+/** Moves the wall at the targets of a packet, whose places at rest are near its `rest`, from one map to another.
+ *  @param moved change of the position, then added to the target
+ *  @param normal in the first map; of any length in the second one */
+EVS_WIDE_VECTORS void carryWall(const FieldTerms& from, const FieldTerms& to, Packet& packet, Wide (&moved)[3],
+                                Wide (&normal)[3])
+{
+  newtonStep(from, packet.target, packet.rest);
+  FieldPoint<Wide> before, after;
+  evaluate(from, packet.rest, before);
+  evaluate(to, packet.rest, after);
+  Wide g[3][3], cofactor[3][3], n[3];
+  differentiate(from, before, g);
+  for (int j = 0; j < 3; ++j)
+    n[j] = g[0][j] * normal[0] + g[1][j] * normal[1] + g[2][j] * normal[2];
+  differentiate(to, after, g);
+  cofactors(g, cofactor);
+  for (int i = 0; i < 3; ++i)
+  {
+    moved[i] = packet.target[i] + (after.weight * after.value[i] - before.weight * before.value[i]);
+    normal[i] = cofactor[i][0] * n[0] + cofactor[i][1] * n[1] + cofactor[i][2] * n[2];
+  }
 }
 
 /** Calls act(packet) with the points of a packet, its last lanes filled; the packet becomes empty. */
@@ -97,6 +142,14 @@ void flush(Packet& packet, Wide (&points)[3], const Act& act)
       point[lane] = point[0];
   act(packet);
   packet.size = 0;
+}
+
+/** Sets the lanes to the vectors of a packet's points, its last lanes to the first of them. */
+void gather(const std::vector<Vector3d>& vectors, const Packet& packet, Wide (&wide)[3])
+{
+  for (int lane = 0; lane < kLanes; ++lane)
+    for (int i = 0; i < 3; ++i)
+      wide[i][lane] = vectors[packet.index[lane < packet.size ? lane : 0]][i];
 }
 
 Vector3d laneOf(const Wide (&wide)[3], int lane)
@@ -274,6 +327,51 @@ MotionMap::Feature MotionMap::pushForward(const Vector3d& point, const Vector3d&
   const Vector3d turned = gradient(point).inverse().transpose() * normal;
   const double length = turned.norm();
   return {position(point), turned / length, 1.0 / length, velocity(point)};
+}
+
+void MotionMap::pushForward(std::vector<Vector3d>& points, std::vector<Vector3d>& normals) const
+{
+  if (resting_)
+    return;
+  const FieldTerms terms(frame_, field_);
+  forPackets(
+      points, 0, &Packet::rest, [this](const Vector3d& point) { return outside(point); },
+      [&](Packet& packet)
+      {
+        Wide moved[3], normal[3];
+        gather(normals, packet, normal);
+        moveWall(terms, packet, moved, normal);
+        for (int lane = 0; lane < packet.size; ++lane)
+        {
+          points[packet.index[lane]] = laneOf(moved, lane);
+          normals[packet.index[lane]] = laneOf(normal, lane).normalized();
+        }
+      });
+}
+
+void MotionMap::carryTo(const MotionMap& other, const std::vector<Vector3d>& guesses, std::vector<Vector3d>& points,
+                        std::vector<Vector3d>& normals) const
+{
+  const FieldTerms from(frame_, field_), to(frame_, other.field_);
+  forPackets(
+      points, 0, &Packet::target, [this](const Vector3d& point) { return outside(point); },
+      [&](Packet& packet)
+      {
+        Wide moved[3], normal[3];
+        gather(guesses, packet, packet.rest);
+        gather(normals, packet, normal);
+        carryWall(from, to, packet, moved, normal);
+        for (int lane = 0; lane < packet.size; ++lane)
+        {
+          points[packet.index[lane]] = laneOf(moved, lane);
+          normals[packet.index[lane]] = laneOf(normal, lane).normalized();
+        }
+      });
+}
+
+Eigen::Vector3d MotionMap::restingNormal(const Eigen::Vector3d& rest, const Eigen::Vector3d& normal) const
+{
+  return (gradient(rest).transpose() * normal).normalized();
 }
 
 }  // namespace endovascular_sim::motion

@@ -67,6 +67,18 @@ public:
   /** Pushes a feature forward: P with the wall's normal N becomes φ(P) with that of the moved wall. Distances from the
    *  wall scale by distance_scale to first order; a radius does not scale. @param point P [m]  @param normal N, unit */
   Feature pushForward(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  /** Points and unit normals of the resting wall in the moved patient. Those outside of the fade stay.
+   *  @param points [m]  @param normals as many */
+  void pushForward(std::vector<Eigen::Vector3d>& points, std::vector<Eigen::Vector3d>& normals) const;
+  /** Points and unit normals of the wall in this map, moved to another map of the same frame. Those outside of the fade
+   *  stay.
+   *  @param guesses places at rest: one Newton step from there is taken [m]
+   *  @param points [m]  @param normals as many */
+  void carryTo(const MotionMap& other, const std::vector<Eigen::Vector3d>& guesses,
+               std::vector<Eigen::Vector3d>& points, std::vector<Eigen::Vector3d>& normals) const;
+  /** Unit normal of the resting wall from that of the moved one: ∇φᵀn, the inverse of pushForward().
+   *  @param rest place of the wall at rest [m] */
+  Eigen::Vector3d restingNormal(const Eigen::Vector3d& rest, const Eigen::Vector3d& normal) const;
 
   /** True if the map is the identity. */
   bool resting() const { return resting_; }

@@ -51,12 +51,53 @@ flow::InstrumentSpan fromMessage(const FlowSpan& message, std::size_t branches)
   return {branchOf(message.branch, branches, "instruments"), message.begin, message.end, message.radius};
 }
 
-flow::TreePlace fromMessage(const FlowPlace& message, std::size_t branches)
+flow::TreePlace fromMessage(const FlowPlace& message, std::size_t branches, const char* key)
 {
-  requireFinite({message.arc}, names::kFlowRequest, "probes");
+  requireFinite({message.arc}, names::kFlowRequest, key);
   if (message.branch < 0)
     return {};
-  return {branchOf(static_cast<std::uint32_t>(message.branch), branches, "probes"), message.arc};
+  return {branchOf(static_cast<std::uint32_t>(message.branch), branches, key), message.arc};
+}
+
+FlowPlace toMessage(const flow::TreePlace& place)
+{
+  FlowPlace message;
+  message.branch = place.branch;
+  message.arc = place.arc;
+  return message;
+}
+
+void toMessage(const flow::FlowInjection& injection, FlowRequest& message)
+{
+  message.injected_volume = injection.volume;
+  message.injected_concentration = injection.concentration;
+  message.injected_viscosity = injection.viscosity;
+  message.openings.clear();
+  message.opening_shares.clear();
+  for (const flow::FlowOpening& opening : injection.openings)
+  {
+    message.openings.push_back(toMessage(opening.place));
+    message.opening_shares.push_back(opening.share);
+  }
+}
+
+flow::FlowInjection injectionOf(const FlowRequest& message, std::size_t branches)
+{
+  flow::FlowInjection injection{
+      message.injected_volume, message.injected_concentration, message.injected_viscosity, {}};
+  const std::initializer_list<double> values = {injection.volume, injection.concentration, injection.viscosity};
+  requireFinite(values, names::kFlowRequest, "injected_volume, injected_concentration, injected_viscosity");
+  requireFinite(message.opening_shares, names::kFlowRequest, "opening_shares");
+  if (std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; }))
+    throw InputError(names::kFlowRequest, "injected_volume, injected_concentration, injected_viscosity",
+                     "must be at least 0");
+  if (message.openings.size() != message.opening_shares.size() ||
+      std::any_of(message.opening_shares.begin(), message.opening_shares.end(),
+                  [](double share) { return share <= 0.0; }))
+    throw InputError(names::kFlowRequest, "opening_shares", "must have one positive share for each opening");
+  for (std::size_t k = 0; k < message.openings.size(); ++k)
+    injection.openings.push_back({fromMessage(message.openings[k], branches, "openings"), message.opening_shares[k]});
+  return injection;
 }
 
 flow::FlowControls controlsOf(double heart_rate, double mean_pressure, bool hyperaemia, const char* topic)
@@ -105,10 +146,8 @@ void toMessage(const flow::FlowRequest& request, FlowRequest& message)
   }
   message.probes.resize(request.probes.size());
   for (std::size_t k = 0; k < request.probes.size(); ++k)
-  {
-    message.probes[k].branch = request.probes[k].branch;
-    message.probes[k].arc = request.probes[k].arc;
-  }
+    message.probes[k] = toMessage(request.probes[k]);
+  toMessage(request.injection, message);
   message.state.assign(request.state.begin(), request.state.end());
 }
 
@@ -125,7 +164,8 @@ void fromMessage(const FlowRequest& message, std::size_t branches, flow::FlowReq
     request.instruments.push_back(fromMessage(span, branches));
   request.probes.clear();
   for (const FlowPlace& place : message.probes)
-    request.probes.push_back(fromMessage(place, branches));
+    request.probes.push_back(fromMessage(place, branches, "probes"));
+  request.injection = injectionOf(message, branches);
   request.state.assign(message.state.begin(), message.state.end());
 }
 
@@ -142,6 +182,10 @@ void toMessage(const flow::FlowAnswer& answer, FlowAnswer& message)
   message.probes = field.probes;
   message.readings = field.readings;
   setMeans(field.means, message);
+  message.iodine = field.iodine;
+  message.iodine_injected = field.totals.injected;
+  message.iodine_inside = field.totals.inside;
+  message.iodine_left = field.totals.left;
   message.state.assign(answer.state.begin(), answer.state.end());
 }
 
@@ -149,9 +193,11 @@ void fromMessage(const FlowAnswer& message, flow::FlowAnswer& answer)
 {
   requireFinite({message.phase, message.ventricle_pressure, message.mean_root_pressure}, names::kFlowAnswer,
                 "phase, ventricle_pressure, mean_root_pressure");
+  requireFinite({message.iodine_injected, message.iodine_inside, message.iodine_left}, names::kFlowAnswer,
+                "iodine_injected, iodine_inside, iodine_left");
   for (const auto& values : {&message.pressure, &message.flow, &message.area, &message.probes, &message.readings,
-                             &message.mean_readings, &message.mean_lesion_pressures})
-    requireFinite(*values, names::kFlowAnswer, "pressure to mean_lesion_pressures");
+                             &message.mean_readings, &message.mean_lesion_pressures, &message.iodine})
+    requireFinite(*values, names::kFlowAnswer, "pressure to mean_lesion_pressures, iodine");
   answer.step = message.step;
   answer.field.phase = message.phase;
   answer.field.beats = message.beats;
@@ -166,6 +212,8 @@ void fromMessage(const FlowAnswer& message, flow::FlowAnswer& answer)
   answer.field.means.lesions = message.mean_lesion_pressures;
   answer.field.means.hyperaemia = message.mean_hyperaemia != 0;
   answer.field.means.step = message.mean_step;
+  answer.field.iodine = message.iodine;
+  answer.field.totals = {message.iodine_injected, message.iodine_inside, message.iodine_left};
   answer.state.assign(message.state.begin(), message.state.end());
 }
 

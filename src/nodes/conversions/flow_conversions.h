@@ -25,7 +25,7 @@ void toMessage(const flow::FlowRequest& request, FlowRequest& message);
  *  @throws InputError for numbers that are not finite or impossible, and for a branch that does not exist */
 void fromMessage(const FlowRequest& message, std::size_t branches, flow::FlowRequest& request);
 void toMessage(const flow::FlowAnswer& answer, FlowAnswer& message);
-/** @throws InputError for a pressure, flow or area that is not finite */
+/** @throws InputError for a pressure, flow, area or amount of iodine that is not finite */
 void fromMessage(const FlowAnswer& message, flow::FlowAnswer& answer);
 
 void toMessage(const flow::FlowControls& controls, HemodynamicControls& message);

@@ -167,20 +167,17 @@ CArm toMessage(const fluoroscopy::CArmPose& pose)
   return message;
 }
 
-std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
-                                               const std::vector<fluoroscopy::XRayInstrument>& instruments,
-                                               const fluoroscopy::LocalFluids& fluids)
+simulation::ImagedInstruments imagedInstruments(const RodStateVisual& state, std::size_t instruments)
 {
-  requireUsable(state, instruments.size());
-  std::vector<Eigen::Vector3d> nodes;
-  nodes.reserve(state.nodes.size());
+  requireUsable(state, instruments);
+  simulation::ImagedInstruments imaged;
+  imaged.nodes.reserve(state.nodes.size());
   for (const geometry_msgs::Point& node : state.nodes)
-    nodes.push_back(fromMessage(node));
+    imaged.nodes.push_back(fromMessage(node));
   const double furthest = *std::max_element(state.insertion.begin(), state.insertion.end());
-  std::vector<double> behind;
   for (const double insertion : state.insertion)
-    behind.push_back(furthest - insertion);
-  return {fluoroscopy::coaxialStack(nodes, instruments, behind, {fluids})};
+    imaged.behind.push_back(furthest - insertion);
+  return imaged;
 }
 
 }  // namespace endovascular_sim::nodes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,8 +12,8 @@
 #include "endovascular_sim/RodStateVisual.h"
 #include "fluoroscopy/beam/material_library.h"
 #include "fluoroscopy/fluoroscope.h"
-#include "fluoroscopy/projection/x_ray_instrument.h"
 #include "scene/model/scene.h"
+#include "simulation/imaged_bodies.h"
 
 namespace endovascular_sim::nodes
 {
@@ -52,10 +53,9 @@ fluoroscopy::CArmPose toPose(const CArm& message, const fluoroscopy::CArmPose& p
 /** Command that moves the C-arm to a pose, without a header. */
 CArm toMessage(const fluoroscopy::CArmPose& pose);
 
-/** X-ray model of all instruments. The nodes of the message end at the tip of the instrument that reaches farthest.
+/** Instruments of an image. The nodes of the message end at the tip of the instrument that reaches farthest.
+ *  @param instruments their number
  *  @throws InputError when lists have wrong lengths, or a number is not finite */
-std::vector<fluoroscopy::XRayWire> toXRayWires(const RodStateVisual& state,
-                                               const std::vector<fluoroscopy::XRayInstrument>& instruments,
-                                               const fluoroscopy::LocalFluids& fluids);
+simulation::ImagedInstruments imagedInstruments(const RodStateVisual& state, std::size_t instruments);
 
 }  // namespace endovascular_sim::nodes

@@ -29,7 +29,7 @@ void toMessage(const simulation::Simulation& simulation, RodStateVisual& message
     message.hand_torque.push_back(hand.torque);
     message.pressure.push_back(hand.pressure);
   }
-  const int first = results::firstInsertedNode(simulation);
+  const int first = simulation::firstInsertedNode(simulation);
   message.first_node = static_cast<std::uint32_t>(first);
   message.nodes.clear();
   message.radius.clear();

@@ -1,8 +1,6 @@
 #include "nodes/conversions/treatment_conversions.h"
 
 #include "common/error.h"
-#include "fluoroscopy/projection/x_ray_treatment.h"
-#include "intervention/stent_placement.h"
 #include "nodes/conversions/contact_conversions.h"
 #include "nodes/conversions/message_checks.h"
 #include "nodes/runtime/ros_names.h"
@@ -64,21 +62,14 @@ intervention::RoundBody fromMessage(const TreatmentBody& body)
   return roundBody(body.axis, body.radius, names::kTreatmentVisual);
 }
 
-std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message,
-                                               const fluoroscopy::DeviceDensity& filling,
-                                               const fluoroscopy::DeviceDensity& metal)
+simulation::ImagedTreatment imagedTreatment(const TreatmentVisual& message)
 {
-  std::vector<fluoroscopy::XRayWire> wires;
+  simulation::ImagedTreatment imaged;
   for (const TreatmentBody& body : message.balloons)
-  {
-    const intervention::RoundBody balloon = fromMessage(body);
-    wires.push_back(fluoroscopy::balloonWire(balloon.axis, balloon.radii, filling));
-  }
+    imaged.balloons.push_back(fromMessage(body));
   for (const TreatmentBody& body : message.stents)
-    for (fluoroscopy::XRayWire& strut :
-         fluoroscopy::strutWires(intervention::stentStruts(fromMessage(body)), body.thickness, metal))
-      wires.push_back(std::move(strut));
-  return wires;
+    imaged.stents.push_back({fromMessage(body), body.thickness});
+  return imaged;
 }
 
 }  // namespace endovascular_sim::nodes

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "endovascular_sim/TreatmentVisual.h"
-#include "fluoroscopy/projection/wire_projection.h"
 #include "intervention/vessel_dilatation.h"
+#include "simulation/imaged_bodies.h"
 #include "simulation/simulation.h"
 
 namespace endovascular_sim::nodes
@@ -16,11 +14,7 @@ void toMessage(const simulation::Simulation& simulation, TreatmentVisual& messag
 /** @throws InputError when axis and radius differ in length or are not finite */
 intervention::RoundBody fromMessage(const TreatmentBody& body);
 
-/** X-ray wires of balloons and stents.
- *  @param filling, metal linear attenuation minus that of the displaced material [1/m]
- *  @throws InputError as fromMessage() */
-std::vector<fluoroscopy::XRayWire> toXRayWires(const TreatmentVisual& message,
-                                               const fluoroscopy::DeviceDensity& filling,
-                                               const fluoroscopy::DeviceDensity& metal);
+/** Balloons and stents of an image. @throws InputError as fromMessage() */
+simulation::ImagedTreatment imagedTreatment(const TreatmentVisual& message);
 
 }  // namespace endovascular_sim::nodes

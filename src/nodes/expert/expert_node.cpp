@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "common/error.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/PlayerState.h"
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/SimulationRun.h"
 #include "endovascular_sim/TreatmentVisual.h"
 #include "nodes/conversions/message_checks.h"
+#include "nodes/expert/carried_state.h"
 #include "nodes/runtime/guarded_subscription.h"
 #include "nodes/runtime/ros_names.h"
 
@@ -45,6 +47,8 @@ ExpertNode::ExpertNode(ros::NodeHandle node, const ros::NodeHandle& parameters)
 {
   states_ = subscribeGuarded<RodStateVisual>(node_, names::kRodStateVisual, 1,
                                              [this](const RodStateVisual& state) { receiveState(state); });
+  motion_states_ = subscribeGuarded<MotionState>(node_, names::kMotionState, MotionHistory::kCapacity,
+                                                 [this](const MotionState& motion) { motions_.add(motion); });
   steps_ = subscribeGuarded<ProcedureStep>(node_, names::kProcedureStep, 4,
                                            [this](const ProcedureStep& step) { receiveStep(step); });
   runs_ = subscribeGuarded<SimulationRun>(node_, names::kSimulationRun, 4,
@@ -132,13 +136,17 @@ double ExpertNode::beginning() const
 void ExpertNode::show(std::size_t moment)
 {
   RodStateVisual state = recording_->state(moment);
+  carry(recording_->motion(moment), has_trainee_ ? motions_.nearest(trainee_.step) : restingMap(), state);
   const bool is_alone = alignment_ == ExpertAlignment::kAlone;
   publishState(state.time, is_alone || !has_trainee_ ? std::nan("") : tipDistance(state, trainee_));
+  if (has_trainee_)
+    state.step = trainee_.step;  // displays pair it with the motion of that step
   // Also where the moment is the same: displays forget what they have shown when the clock jumps back.
   state.header.stamp = ros::Time::now();
   visual_.publish(state);
   TreatmentVisual treatment = recording_->treatment(moment).value_or(TreatmentVisual());
   treatment.header = state.header;
+  treatment.step = state.step;
   treatment_.publish(treatment);
 }
 

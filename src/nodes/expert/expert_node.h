@@ -14,6 +14,7 @@
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "nodes/expert/expert_recording.h"
+#include "nodes/visualization/motion_history.h"
 
 namespace endovascular_sim::nodes
 {
@@ -49,6 +50,7 @@ private:
   ExpertAlignment alignment_, before_alone_;
   ros::SteadyTime alone_since_;
   RodStateVisual trainee_;
+  MotionHistory motions_;  ///< of the trainee's patient
   bool has_trainee_ = false;
   std::uint64_t first_step_ = 0;  ///< of the trainee's run
   double time_step_ = 0.0;        ///< of the trainee's scene [s]
@@ -58,7 +60,7 @@ private:
   bool has_step_ = false;
   ros::Publisher visual_, treatment_, scene_, state_;
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber states_, steps_, runs_, infos_, players_;
+  ros::Subscriber states_, motion_states_, steps_, runs_, infos_, players_;
   ros::ServiceServer align_, show_;
   ros::SteadyTimer search_, alone_;
 };

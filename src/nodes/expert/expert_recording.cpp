@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/ProcedureStep.h"
+#include "nodes/conversions/motion_conversions.h"
 #include "nodes/runtime/ros_names.h"
 #include "nodes/session/session_files.h"
+#include "nodes/visualization/motion_history.h"
 
 namespace endovascular_sim::nodes
 {
@@ -16,6 +19,7 @@ ExpertRecording::ExpertRecording(const std::string& folder)
     states_(timeline_.entriesOf({names::kRodStateVisual})),
     treatments_(timeline_.entriesOf({names::kTreatmentVisual})),
     steps_(timeline_.entriesOf({names::kProcedureStep})),
+    motions_(timeline_.entriesOf({names::kMotionState})),
     course_(momentsOf())
 {
 }
@@ -55,14 +59,28 @@ RodStateVisual ExpertRecording::state(std::size_t moment) const
   return *timeline_.message(states_.at(moment)).read<RodStateVisual>();
 }
 
-std::optional<TreatmentVisual> ExpertRecording::treatment(std::size_t moment) const
+/** Last one of entries of one topic at or before a moment; empty before the first one. */
+std::optional<std::uint32_t> ExpertRecording::lastUpTo(std::size_t moment,
+                                                       const std::vector<std::uint32_t>& entries) const
 {
   const ros::Time time = timeline_.entries()[states_.at(moment)].time;
   const auto isLater = [this](ros::Time at, std::uint32_t entry) { return at < timeline_.entries()[entry].time; };
-  const auto after = std::upper_bound(treatments_.begin(), treatments_.end(), time, isLater);
-  if (after == treatments_.begin())
+  const auto after = std::upper_bound(entries.begin(), entries.end(), time, isLater);
+  return after == entries.begin() ? std::nullopt : std::optional<std::uint32_t>(*(after - 1));
+}
+
+std::optional<TreatmentVisual> ExpertRecording::treatment(std::size_t moment) const
+{
+  const std::optional<std::uint32_t> entry = lastUpTo(moment, treatments_);
+  if (!entry)
     return std::nullopt;
-  return *timeline_.message(*(after - 1)).read<TreatmentVisual>();
+  return *timeline_.message(*entry).read<TreatmentVisual>();
+}
+
+motion::MotionMap ExpertRecording::motion(std::size_t moment) const
+{
+  const std::optional<std::uint32_t> entry = lastUpTo(moment, motions_);
+  return entry ? fromMessage(*timeline_.message(*entry).read<MotionState>()) : restingMap();
 }
 
 std::optional<geometry_msgs::Point> tipOf(const RodStateVisual& state)

@@ -8,6 +8,7 @@
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionInfo.h"
 #include "endovascular_sim/TreatmentVisual.h"
+#include "motion/map/motion_map.h"
 #include "nodes/expert/expert_course.h"
 #include "nodes/player/bag_timeline.h"
 
@@ -31,11 +32,16 @@ public:
   /** Balloons and stents at a moment of the course; empty before the first ones. */
   std::optional<TreatmentVisual> treatment(std::size_t moment) const;
 
+  /** Motion of the patient at a moment of the course; the identity in a patient at rest.
+   *  @throws InputError for an impossible motion */
+  motion::MotionMap motion(std::size_t moment) const;
+
 private:
+  std::optional<std::uint32_t> lastUpTo(std::size_t moment, const std::vector<std::uint32_t>& entries) const;
   std::vector<RunMoment> momentsOf() const;
 
   BagTimeline timeline_;
-  std::vector<std::uint32_t> states_, treatments_, steps_;  ///< entries of the timeline
+  std::vector<std::uint32_t> states_, treatments_, steps_, motions_;  ///< entries of the timeline
   ExpertCourse course_;
 };
 

@@ -1,11 +1,14 @@
 #include "nodes/fluoroscopy/x_ray_room.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "common/error.h"
 #include "fluoroscopy/projection/x_ray_treatment.h"
+#include "intervention/stent_placement.h"
 #include "simulation/x_ray_patient.h"
 
 namespace endovascular_sim::nodes
@@ -15,8 +18,10 @@ XRayRoom::XRayRoom(const scene::Scene& scene, const fluoroscopy::MaterialLibrary
   : scene_(scene),
     system_(scene_, library),
     fluoroscope_(system_.fluoroscope()),
+    angiography_(fluoroscope_),
     gantry_(scene_.fluoroscopy->gantry, fluoroscope_.geometry().pose()),
     needs_patient_(scene_.fluoroscopy->patient.has_value()),
+    needs_lumen_(scene_.contrast.has_value()),
     isocentre_known_(scene_.fluoroscopy->isocentre.has_value())
 {
 }
@@ -30,17 +35,67 @@ void XRayRoom::setVessel(geometry::TriangleMesh mesh)
       box.extend(vertex);
     placePatient(box.center());
   }
-  if (needs_patient_)
+  if (needsCentreline())
     vessel_.mesh = mesh;
   fluoroscope_.setVessel(std::move(mesh));
   has_mesh_ = true;
+  divideLumen();
 }
 
-void XRayRoom::setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes,
-                        std::uint64_t step)
+void XRayRoom::setCentreline(vessel::CentrelineTree centreline, std::vector<vessel::PlacedLesion> lesions)
 {
-  wires_ = std::move(wires);
-  step_ = step;
+  vessel_.centreline = std::move(centreline);
+  vessel_.lesions = std::move(lesions);
+  divideLumen();
+}
+
+/** Divides the lumen for contrast medium when wall and centreline are known: the first wall, which the simulation has
+ *  divided, too. */
+void XRayRoom::divideLumen()
+{
+  if (!needs_lumen_ || !has_mesh_ || vessel_.centreline.branches.empty())
+    return;
+  const simulation::ContrastVessel contrast(scene_, vessel_);
+  system_.setLumen(vessel_.centreline, contrast.cells, contrast.lumen);
+  needs_lumen_ = false;
+  if (!needs_patient_)
+    vessel_ = {};
+}
+
+void XRayRoom::setState(const ImagedState& state)
+{
+  const fluoroscopy::BodyMotion motion = state.motion.value_or(fluoroscopy::BodyMotion());
+  if (state.motion && !draws_stills_)
+    system_.setHeart(motion.map().frame());
+  fluoroscope_.setMotion(motion);
+  if (scene_.contrast)
+    system_.setContrast(state.contrast.value_or(simulation::ContrastMedium()));
+  wires_.clear();
+  if (!state.instruments.behind.empty())
+    wires_.push_back(system_.stack(state.instruments.nodes, state.instruments.behind, motion.map()));
+  std::vector<fluoroscopy::XRayWire> treatment;
+  if (state.treatment)
+    treatment = wiresOf(*state.treatment);
+  fluoroscopy::moveWires(motion.map(), treatment);
+  std::move(treatment.begin(), treatment.end(), std::back_inserter(wires_));
+}
+
+/** X-ray wires of balloons and stents in the contrast medium that is there, with the vessel at rest. */
+std::vector<fluoroscopy::XRayWire> XRayRoom::wiresOf(const simulation::ImagedTreatment& treatment) const
+{
+  const auto middle = [](const std::vector<Eigen::Vector3d>& axis) { return axis[axis.size() / 2]; };
+  std::vector<fluoroscopy::XRayWire> wires;
+  for (const intervention::RoundBody& balloon : treatment.balloons)
+    wires.push_back(fluoroscopy::balloonWire(balloon.axis, balloon.radii, system_.fillingAt(middle(balloon.axis))));
+  for (const simulation::ImagedStent& stent : treatment.stents)
+    for (fluoroscopy::XRayWire& strut : fluoroscopy::strutWires(
+             intervention::stentStruts(stent.sleeve), stent.thickness, system_.metalAt(middle(stent.sleeve.axis))))
+      wires.push_back(std::move(strut));
+  return wires;
+}
+
+void XRayRoom::follow(const std::vector<Eigen::Vector3d>& nodes)
+{
   if (nodes.empty())
     return;
   tip_ = nodes.back();
@@ -60,6 +115,7 @@ std::vector<std::string> XRayRoom::loadPatient(const std::optional<fluoroscopy::
   simulation::XRayPatient loaded = simulation::loadPatient(
       scene_, vessel, resolution.value_or(simulation::sequenceResolution(scene_.fluoroscopy->rate)));
   fluoroscope_.setPatient(std::move(loaded.patient));
+  draws_stills_ = resolution && resolution->motion == fluoroscopy::MotionSampling::kExact;
   needs_patient_ = false;
   return loaded.notes;
 }
@@ -118,14 +174,9 @@ void XRayRoom::applyPose()
   }
 }
 
-const fluoroscopy::Frame& XRayRoom::render(bool display)
+const fluoroscopy::AngiographyFrame& XRayRoom::draw(std::uint64_t pulse, bool display)
 {
-  const fluoroscopy::BodyMotion& motion = motions_.at(step_);
-  fluoroscope_.setMotion(motion);
-  shown_ = treatment_;
-  fluoroscopy::moveWires(motion.map(), shown_);
-  shown_.insert(shown_.begin(), wires_.begin(), wires_.end());
-  return fluoroscope_.render(shown_, display);
+  return angiography_.draw(pulse, wires_, display);
 }
 
 }  // namespace endovascular_sim::nodes

@@ -7,10 +7,13 @@
 
 #include <Eigen/Core>
 
+#include "fluoroscopy/angiography/angiography.h"
 #include "fluoroscopy/gantry/gantry.h"
 #include "fluoroscopy/patient/progressive_projection.h"
-#include "nodes/fluoroscopy/body_motion_history.h"
+#include "nodes/fluoroscopy/pulse_states.h"
 #include "simulation/fluoroscopy_system.h"
+#include "simulation/imaged_bodies.h"
+#include "vessel/model/lesion.h"
 #include "vessel/model/vessel.h"
 
 namespace endovascular_sim::nodes
@@ -30,24 +33,24 @@ public:
    *  @throws InputError when the C-arm cannot be there */
   void setVessel(geometry::TriangleMesh mesh);
 
-  /** Sets the centreline of the vessel at rest, about which the patient is placed. */
-  void setCentreline(vessel::CentrelineTree centreline) { vessel_.centreline = std::move(centreline); }
+  /** Sets the centreline of the vessel at rest, for the place of the patient and the cells of contrast medium.
+   *  @throws InputError when it does not belong to the wall */
+  void setCentreline(vessel::CentrelineTree centreline, std::vector<vessel::PlacedLesion> lesions);
 
-  /** Sets the instruments.
+  /** Takes the place of the instruments, which the table may follow.
    *  @param nodes of the centreline, from proximal to distal [m]
-   *  @param step of the simulation; the patient is drawn in the motion of this step
-   *  @throws InputError as setVessel(); the instruments are set then, too */
-  void setWires(std::vector<fluoroscopy::XRayWire> wires, const std::vector<Eigen::Vector3d>& nodes,
-                std::uint64_t step = 0);
+   *  @throws InputError as setVessel() */
+  void follow(const std::vector<Eigen::Vector3d>& nodes);
 
-  /** Takes the motion of the patient in a step. */
-  void setMotion(std::uint64_t step, const fluoroscopy::BodyMotion& motion) { motions_.add(step, motion); }
+  /** Sets what the next images show: instruments, balloons and stents, motion of the patient, contrast medium.
+   *  @throws InputError for contrast medium of another vessel */
+  void setState(const ImagedState& state);
 
-  /** Sets balloons and stents, with the vessel at rest. */
-  void setTreatment(std::vector<fluoroscopy::XRayWire> treatment) { treatment_ = std::move(treatment); }
-
-  bool awaitsVessel() const { return scene_.vessel && !has_mesh_; }  ///< the mesh has not arrived
-  bool awaitsPatient() const { return needs_patient_; }              ///< the patient is not loaded
+  /** The mesh has not arrived, or the centreline that divides its lumen. */
+  bool awaitsVessel() const { return scene_.vessel && (!has_mesh_ || needs_lumen_); }
+  bool awaitsPatient() const { return needs_patient_; }  ///< the patient is not loaded
+  /** The centreline is of use: for the patient or for contrast medium. */
+  bool needsCentreline() const { return needs_patient_ || needs_lumen_; }
 
   /** True when the patient can be loaded: the scene has one, and its vessel is known. */
   bool canLoadPatient() const;
@@ -81,26 +84,35 @@ public:
   // ---------------------------------------------------------------------------------------------------------- images
 
   /** X-ray frame of the present state. @pre neither awaitsVessel() nor awaitsPatient()
+   *  @param pulse its number, which selects the noise
    *  @param display true: with the image for the display */
-  const fluoroscopy::Frame& render(bool display);
+  const fluoroscopy::AngiographyFrame& draw(std::uint64_t pulse, bool display);
+
+  /** Modes, mask and last frame. @{ */
+  fluoroscopy::Angiography& angiography() { return angiography_; }
+  const fluoroscopy::Angiography& angiography() const { return angiography_; }
+  /** @} */
 
   const simulation::FluoroscopySystem& system() const { return system_; }
 
 private:
+  void divideLumen();
+  std::vector<fluoroscopy::XRayWire> wiresOf(const simulation::ImagedTreatment& treatment) const;
   void placePatient(const Eigen::Vector3d& isocentre);
   void applyPose();
 
   scene::Scene scene_;
   simulation::FluoroscopySystem system_;
   fluoroscopy::Fluoroscope& fluoroscope_;
+  fluoroscopy::Angiography angiography_;
   fluoroscopy::Gantry gantry_;
-  std::vector<fluoroscopy::XRayWire> wires_, treatment_, shown_;
-  std::uint64_t step_ = 0;  ///< of wires_
-  BodyMotionHistory motions_;
-  std::optional<Eigen::Vector3d> tip_;  ///< tip of the instrument that reaches farthest [m]
+  std::vector<fluoroscopy::XRayWire> wires_;  ///< of the present state, in the moved patient
+  bool draws_stills_ = false;                 ///< the patient is drawn at every motion exactly
+  std::optional<Eigen::Vector3d> tip_;        ///< tip of the instrument that reaches farthest [m]
   bool has_mesh_ = false;
-  vessel::Vessel vessel_;  ///< vessel at rest, about which the patient is placed; empty afterwards
+  vessel::Vessel vessel_;  ///< vessel at rest, for patient and lumen; empty afterwards
   bool needs_patient_;     ///< true: the scene has a patient that is not yet loaded
+  bool needs_lumen_;       ///< true: the scene has contrast medium, and its lumen is not yet divided
   bool isocentre_known_;
 };
 

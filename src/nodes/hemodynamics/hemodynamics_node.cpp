@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/time/processor_time.h"
+#include "nodes/conversions/contrast_conversions.h"
 #include "nodes/conversions/flow_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
 #include "nodes/runtime/diagnostics_publication.h"
@@ -36,21 +37,44 @@ HemodynamicsNode::HemodynamicsNode(ros::NodeHandle& node, const scene::Scene& sc
   publisher_ = node_.advertise<FlowAnswer>(names::kFlowAnswer, kQueue);
   centreline_subscriber_ = subscribeGuarded<VesselCentreline>(
       node_, names::kVesselCentreline, 1, [this](const VesselCentreline& message) { receiveCentreline(message); });
+  if (scene_.contrast)
+    cells_subscriber_ = subscribeGuarded<ContrastCells>(
+        node_, names::kContrastCells, 1, [this](const ContrastCells& message) { receiveCells(message); });
   diagnostics_.setHardwareID("none");
   diagnostics_.add("hemodynamics", this, &HemodynamicsNode::diagnose);
   timer_ = node_.createWallTimer(ros::WallDuration(1.0),
                                  [this](const ros::WallTimerEvent&) { publishDiagnostics(diagnostics_); });
 }
 
-/** Prepares the flow in a vessel, the first one or that of a restarted vessel server. */
+/** Takes over a vessel, the first one or that of a restarted vessel server. */
 void HemodynamicsNode::receiveCentreline(const VesselCentreline& message)
 {
   if (engine_ && message.content_hash == content_hash_)
     return;
+  centreline_ = message;
+  prepare();
+}
+
+/** Takes over the volumes of the cells of contrast medium, those of the undeformed wall, from the simulation. */
+void HemodynamicsNode::receiveCells(const ContrastCells& message)
+{
+  volumes_ = volumesOf(message);
+  volumes_hash_ = message.content_hash;
+  prepare();
+}
+
+/** Prepares the flow in the vessel that has arrived, when all is known of it. */
+void HemodynamicsNode::prepare()
+{
+  if (!centreline_ || (scene_.contrast && volumes_hash_ != centreline_->content_hash))
+    return;
+  const VesselCentreline message = *std::exchange(centreline_, std::nullopt);
   vessel::Vessel vessel;
   vessel.centreline = fromMessage(message);
   vessel.lesions = lesionsFromMessage(message);
-  auto engine = std::make_unique<flow::FlowEngine>(simulation::makeFlowEngine(scene_, vessel));
+  auto engine = std::make_unique<flow::FlowEngine>(vessel.centreline, vessel.lesions, scene_.flow->circulation,
+                                                   scene_.flow->time_step, simulation::pressureLines(scene_),
+                                                   scene_.contrast ? volumes_ : std::vector<double>());
   const flow::BodyFlow& body = engine->body();
   for (const std::string& remark : body.remarks())
     ROS_WARN("%s", remark.c_str());

@@ -12,6 +12,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include "endovascular_sim/ContrastCells.h"
 #include "endovascular_sim/FlowAnswer.h"
 #include "endovascular_sim/FlowRequest.h"
 #include "endovascular_sim/VesselCentreline.h"
@@ -42,6 +43,8 @@ public:
 
 private:
   void receiveCentreline(const VesselCentreline& message);
+  void receiveCells(const ContrastCells& message);
+  void prepare();
   void listen();
   void receiveRequest(const FlowRequest& message);
   void receiveFrame(const std::uint8_t* frame, std::uint32_t size);
@@ -53,10 +56,14 @@ private:
   std::function<SchedulingGrant()> request_;  ///< empty once it was called
   SchedulingGrant grant_;                     ///< used by the thread of vessels and diagnostics only
   std::optional<HemodynamicsPublisher> topics_;
-  std::uint64_t content_hash_ = 0;            ///< of the vessel; used by its thread only
-  std::mutex mutex_;                          ///< guards the next six: vessels arrive in another thread
-  std::unique_ptr<flow::FlowEngine> engine_;  ///< null before the first vessel
-  std::size_t branches_ = 0;                  ///< of the vessel
+  // Used by the thread of vessels only:
+  std::uint64_t content_hash_ = 0;              ///< of the vessel of the engine
+  std::optional<VesselCentreline> centreline_;  ///< that waits for its cells of contrast medium
+  std::vector<double> volumes_;                 ///< of these cells [m³]
+  std::uint64_t volumes_hash_ = 0;              ///< of their vessel
+  std::mutex mutex_;                            ///< guards the next six: vessels arrive in another thread
+  std::unique_ptr<flow::FlowEngine> engine_;    ///< null before the first vessel
+  std::size_t branches_ = 0;                    ///< of the vessel
   flow::FlowRequest input_;
   flow::FlowAnswer output_;
   FlowAnswer answer_;
@@ -74,7 +81,7 @@ private:
   diagnostic_updater::Updater diagnostics_;
   std::unique_ptr<LineServer> line_;  ///< null with topics only, and before the first vessel
   // Last, so that they end before the members that their callbacks use.
-  ros::Subscriber centreline_subscriber_, request_subscriber_;
+  ros::Subscriber centreline_subscriber_, cells_subscriber_, request_subscriber_;
   ros::WallTimer timer_;
 };
 

@@ -11,6 +11,9 @@
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/ContactForces.h"
+#include "endovascular_sim/ContrastCells.h"
+#include "endovascular_sim/ContrastInjection.h"
+#include "endovascular_sim/ContrastState.h"
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/FlowNetwork.h"
 #include "endovascular_sim/HeartPhase.h"
@@ -72,6 +75,9 @@ const PresentType* presentTypeOf(const BagMessage& message)
                                                  presentType<BloodFlow>(),
                                                  presentType<HeartPhase>(),
                                                  presentType<HemodynamicControls>(),
+                                                 presentType<ContrastCells>(),
+                                                 presentType<ContrastInjection>(),
+                                                 presentType<ContrastState>(),
                                                  presentType<MotionState>(),
                                                  presentType<MotionControls>(),
                                                  presentType<DriveApplied>()};

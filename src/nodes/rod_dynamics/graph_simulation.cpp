@@ -117,8 +117,11 @@ void GraphSimulation::connectFlow()
     return;
   const flow::VesselFlowTree& network = simulation().blood()->places().tree();
   flow_->setSizes({static_cast<std::size_t>(network.tree.nodes), network.tree.cells.size(),
-                   simulation::pressureLines(scene_).size(), session_->world().vessel()->lesions.size()});
+                   simulation::pressureLines(scene_).size(), session_->world().vessel()->lesions.size(),
+                   scene_.contrast ? session_->world().contrastVessel().cells.size() : 0});
   hemodynamics_.emplace(node_, *session_);
+  if (scene_.contrast)
+    contrast_.emplace(node_, *session_);
 }
 
 bool GraphSimulation::needsFlow() const
@@ -155,6 +158,13 @@ void GraphSimulation::step()
   publishStep(session_->executedCommands(), counted);
 }
 
+std::string GraphSimulation::inject(const InjectContrast::Request& request)
+{
+  const std::string text = GraphContrast::inject(*session_, request);
+  contrast_->publishInputs(*session_, now());
+  return text;
+}
+
 const std::vector<drive::HandCommand>& GraphSimulation::nextCommands()
 {
   const LoopCosts::Scope scope(costs_, LoopPhase::kCommands);
@@ -178,6 +188,8 @@ void GraphSimulation::publishStep(const std::vector<drive::HandCommand>& command
   instruments_.publishStep(simulation(), hands, stamp);
   publisher_.publishStep(simulation(), hands, stamp);
   hardware_.publishStep(*session_, stamp);
+  if (contrast_)
+    contrast_->publishInputs(*session_, stamp);
   if (!forces_)
     return;
   const LoopCosts::Scope recording(costs_, LoopPhase::kRecording);
@@ -203,6 +215,8 @@ void GraphSimulation::publishControls(std::uint32_t run)
     hemodynamics_->beginRun(*session_, run, now());
   if (motion_)
     motion_->beginRun(*session_, run, now());
+  if (contrast_)
+    contrast_->beginRun(*session_, run);
 }
 
 void GraphSimulation::publishEnd(const std::string& reason)

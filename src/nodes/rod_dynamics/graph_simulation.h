@@ -13,6 +13,7 @@
 #include "nodes/rod_dynamics/control/pace.h"
 #include "nodes/rod_dynamics/control/simulation_clock.h"
 #include "nodes/rod_dynamics/instruments/drive_commands.h"
+#include "nodes/rod_dynamics/instruments/graph_contrast.h"
 #include "nodes/rod_dynamics/instruments/graph_hardware.h"
 #include "nodes/rod_dynamics/instruments/graph_hemodynamics.h"
 #include "nodes/rod_dynamics/instruments/graph_motion.h"
@@ -80,6 +81,11 @@ public:
    *  @throws InputError for an invalid state, one of another scene, or a node that does not respond */
   void load(const std::string& state, const std::string& origin);
 
+  /** Executes a call of contrast/inject between two steps.
+   *  @return what is injected
+   *  @throws InputError for what is impossible; nothing changes */
+  std::string inject(const InjectContrast::Request& request);
+
   const scene::Scene& scene() const { return scene_; }
   const simulation::Simulation& simulation() const { return session_->simulation(); }
   /** Initial centreline of the vessel; empty without one. */
@@ -137,6 +143,7 @@ private:
   DriveCommands drives_;
   GraphHardware hardware_;
   std::optional<GraphHemodynamics> hemodynamics_;  ///< none without flow of blood, and before connect()
+  std::optional<GraphContrast> contrast_;          ///< none without contrast medium, and before connect()
   std::optional<GraphMotion> motion_;              ///< none where the patient rests, and before connect()
   InstrumentPublisher instruments_;
   HandForceRenderer renderer_;

@@ -43,7 +43,8 @@ bool RemoteFlowSource::accept(FlowAnswer& message, bool is_answered)
                     message.pressure.size() == sizes_.nodes && message.flow.size() == sizes_.cells &&
                     message.area.size() == sizes_.cells && message.readings.size() == sizes_.lines &&
                     message.mean_readings.size() == sizes_.lines &&
-                    message.mean_lesion_pressures.size() == sizes_.lesions;
+                    message.mean_lesion_pressures.size() == sizes_.lesions &&
+                    (message.iodine.empty() || message.iodine.size() == sizes_.contrast_cells);
   if (!fits)
     throw InputError(names::kFlowAnswer, "", "has other numbers of values than the network of the vessel");
   fromMessage(message, answer_);

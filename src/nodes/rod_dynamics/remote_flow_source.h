@@ -35,7 +35,7 @@ public:
   /** Lengths of the lists in an answer. */
   struct Sizes
   {
-    std::size_t nodes = 0, cells = 0, lines = 0, lesions = 0;
+    std::size_t nodes = 0, cells = 0, lines = 0, lesions = 0, contrast_cells = 0;
   };
 
   /** Sets the lengths that every answer must have; before the first request. */

@@ -22,6 +22,9 @@ constexpr double kNextRecording = 60.0;       ///< longest wait for the begin of
 
 SimulationServices::Operations RodDynamicsNode::operations()
 {
+  std::function<std::string(const InjectContrast::Request&)> inject;
+  if (simulation_.scene().contrast)
+    inject = [this](const InjectContrast::Request& request) { return simulation_.inject(request); };
   return {[this] { return pauseByClient(); },
           [this] { return resumeByClient(); },
           [this] { return reset(); },
@@ -30,7 +33,8 @@ SimulationServices::Operations RodDynamicsNode::operations()
           [this](std::uint32_t step) { return goToStep(step); },
           [this](const StepSimulation::Request& request, StepSimulation::Response& response)
           { stepByClient(request, response); },
-          [this](ContinueRecording::Response& response) { continueRecording(response); }};
+          [this](ContinueRecording::Response& response) { continueRecording(response); },
+          inject};
 }
 
 std::string RodDynamicsNode::pauseByClient()

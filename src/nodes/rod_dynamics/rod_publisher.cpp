@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "instrument/instrument.h"
+#include "nodes/conversions/contrast_conversions.h"
 #include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/rod_conversions.h"
 #include "nodes/conversions/treatment_conversions.h"
@@ -29,6 +30,8 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pac
   : visual_period_(static_cast<std::uint64_t>(std::max(1.0, std::floor(1.0 / (kVisualRate * scene.solver.time_step))))),
     last_step_(static_cast<std::uint64_t>(std::llround(scene.duration / scene.solver.time_step)))
 {
+  if (scene.fluoroscopy)
+    pulses_.emplace(scene.fluoroscopy->rate, scene.solver.time_step);
   applied_ = node.advertise<DriveApplied>(names::kDriveApplied, kStepQueue);
   group_ = node.advertise<SessionSteps>(names::kSessionSteps,
                                         std::max(1U, kStepQueue / static_cast<std::uint32_t>(visual_period_)));
@@ -36,6 +39,8 @@ RodPublisher::RodPublisher(ros::NodeHandle& node, const scene::Scene& scene, Pac
   visual_ = node.advertise<RodStateVisual>(names::kRodStateVisual, visual_queue);
   if (scene.motion)
     motion_ = node.advertise<MotionState>(names::kMotionState, visual_queue);
+  if (scene.contrast)
+    contrast_ = node.advertise<ContrastState>(names::kContrastState, visual_queue);
   if (simulation::hasBalloon(scene))
     treatment_ = node.advertise<TreatmentVisual>(names::kTreatmentVisual, kTreatmentQueue);
   applied_message_.insertion.resize(scene.instruments.size());
@@ -53,7 +58,8 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
                                ros::Time now)
 {
   now_ = now;
-  const bool is_visual = simulation.steps() % visual_period_ == 0;
+  const bool is_display = simulation.steps() % visual_period_ == 0;
+  const bool is_visual = is_display || (pulses_ && pulses_->isPulse(simulation.steps()));
   const bool is_last = simulation.steps() == last_step_;
   // Events and the state at the scene's end are published without delay, so that no recording lacks them.
   const bool is_event = simulation.events().size() != treatment_message_.event.size() || is_last;
@@ -62,11 +68,13 @@ void RodPublisher::publishStep(const simulation::Simulation& simulation, const s
     publishGroup();
   if (is_visual && simulation.motion() != nullptr)
     publishMotion(simulation);
+  if (is_visual && simulation.contrast() != nullptr)
+    publishContrast(simulation);
   if (is_visual)
     publishVisual(simulation);
   if (treatment_ && (is_visual || is_event))
     publishTreatment(simulation);
-  if (is_visual)
+  if (is_display)
     publishTips(simulation);
 }
 
@@ -117,6 +125,15 @@ void RodPublisher::publishMotion(const simulation::Simulation& simulation)
   motion_message_.time = simulation.time();
   toMessage(simulation.motion()->patient(), motion_message_);
   motion_.publish(motion_message_);
+}
+
+/** Publishes the contrast medium, before the state of the instruments in it. */
+void RodPublisher::publishContrast(const simulation::Simulation& simulation)
+{
+  contrast_message_.header.frame_id = names::kPatientFrame;
+  contrast_message_.header.stamp = now_;
+  toMessage(simulation, contrast_message_);
+  contrast_.publish(contrast_message_);
 }
 
 void RodPublisher::publishVisual(const simulation::Simulation& simulation)

@@ -85,6 +85,9 @@ constexpr auto kSourceViewRaw = "fluoroscopy/source_view/image_raw";
 constexpr auto kSourceViewImage = "fluoroscopy/source_view/image";
 constexpr auto kSourceViewCameraInfo = "fluoroscopy/source_view/camera_info";
 constexpr auto kCArmCommand = "fluoroscopy/c_arm";
+constexpr auto kFluoroscopyDsa = "fluoroscopy/dsa";
+constexpr auto kFluoroscopyFrame = "fluoroscopy/frame";
+constexpr auto kSetXRayMode = "fluoroscopy/mode";
 
 constexpr auto kFlowRequest = "hemodynamics/request";
 constexpr auto kFlowAnswer = "hemodynamics/answer";
@@ -98,6 +101,11 @@ constexpr auto kSetHemodynamics = "hemodynamics/set";
 constexpr auto kMotionState = "motion/state";
 constexpr auto kMotionControls = "motion/controls";
 constexpr auto kSetMotion = "motion/set";
+
+constexpr auto kContrastCells = "contrast/cells";
+constexpr auto kContrastState = "contrast/state";
+constexpr auto kContrastInjection = "contrast/injection";
+constexpr auto kInjectContrast = "contrast/inject";
 
 constexpr auto kSensors = "sensors/";  ///< followed by the name of the sensor
 

@@ -14,6 +14,9 @@
 #include "endovascular_sim/BloodFlow.h"
 #include "endovascular_sim/ContactForceMap.h"
 #include "endovascular_sim/ContactForces.h"
+#include "endovascular_sim/ContrastCells.h"
+#include "endovascular_sim/ContrastInjection.h"
+#include "endovascular_sim/ContrastState.h"
 #include "endovascular_sim/FlowNetwork.h"
 #include "endovascular_sim/HeartPhase.h"
 #include "endovascular_sim/HemodynamicControls.h"
@@ -65,6 +68,9 @@ bool isOfThisVersion(const BagMessage& message)
       {names::kFlowNetwork, &BagMessage::is<FlowNetwork>},
       {names::kBloodFlow, &BagMessage::is<BloodFlow>},
       {names::kHeartPhase, &BagMessage::is<HeartPhase>},
+      {names::kContrastCells, &BagMessage::is<ContrastCells>},
+      {names::kContrastInjection, &BagMessage::is<ContrastInjection>},
+      {names::kContrastState, &BagMessage::is<ContrastState>},
       {names::kMotionControls, &BagMessage::is<MotionControls>},
       {names::kMotionState, &BagMessage::is<MotionState>},
   };

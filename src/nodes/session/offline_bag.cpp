@@ -14,6 +14,7 @@
 #include "endovascular_sim/TreatmentVisual.h"
 #include "endovascular_sim/VesselCentreline.h"
 #include "endovascular_sim/VesselMesh.h"
+#include "nodes/conversions/contrast_conversions.h"
 #include "nodes/conversions/flow_conversions.h"
 #include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/rod_conversions.h"
@@ -42,6 +43,8 @@ OfflineBag::OfflineBag(const std::string& file, const session::Session& session,
     addNetwork(session);
   if (session.simulation().motion() != nullptr)
     addControls(session.motionControls());
+  if (session.simulation().contrast() != nullptr)
+    addCells(session.world());
 }
 
 /** Writes a message with the present simulated time. */
@@ -105,6 +108,33 @@ void OfflineBag::addControls(const motion::MotionControls& controls)
   write(names::kMotionControls, std::move(message));
 }
 
+/** Writes the places of the cells of contrast medium. */
+void OfflineBag::addCells(const session::World& world)
+{
+  ContrastCells cells;
+  toMessage(world.contrastVessel().cells, world.lumen()->volumes, world.vessel()->centreline, cells);
+  cells.header.frame_id = names::kPatientFrame;
+  cells.content_hash = world.meshHash();
+  bag_.writeLatched(std::string("/") + names::kContrastCells, cells, now_);
+}
+
+/** Writes the injections that are not written yet. */
+void OfflineBag::addInjections(const simulation::ContrastInjections& injections)
+{
+  const std::vector<simulation::ContrastInput>& inputs = injections.inputs();
+  if (inputs.empty())
+    return;
+  if (inputs.back().step != injection_step_)
+    injections_ = 0;
+  injection_step_ = inputs.back().step;
+  for (; injections_ < inputs.size(); ++injections_)
+  {
+    ContrastInjection message;
+    toMessage(inputs[injections_], message);
+    write(names::kContrastInjection, std::move(message));
+  }
+}
+
 /** Writes the step of the flow that acts since the last step of the simulation, if it is another one than before. */
 void OfflineBag::addBlood(const simulation::BloodCoupling& blood)
 {
@@ -146,6 +176,8 @@ void OfflineBag::addStep(const session::Session& session)
   if (session.simulation().motion() != nullptr)
     addControls(session.motionControls());
   const simulation::Simulation& simulation = session.simulation();
+  if (simulation.contrast() != nullptr)
+    addInjections(*simulation.contrast());
   steps_ = simulation.steps();
   now_ = ros::Time(simulation.time());
   DriveApplied applied;
@@ -192,10 +224,20 @@ void OfflineBag::addMotion(const simulation::Simulation& simulation)
   write(names::kMotionState, std::move(motion));
 }
 
+void OfflineBag::addContrast(const simulation::Simulation& simulation)
+{
+  ContrastState contrast;
+  toMessage(simulation, contrast);
+  contrast.header.frame_id = names::kPatientFrame;
+  write(names::kContrastState, std::move(contrast));
+}
+
 void OfflineBag::addState(const simulation::Simulation& simulation)
 {
   if (simulation.motion() != nullptr)
     addMotion(simulation);
+  if (simulation.contrast() != nullptr)
+    addContrast(simulation);
   RodStateVisual state;
   toMessage(simulation, state);
   state.header.frame_id = names::kPatientFrame;

@@ -16,8 +16,8 @@ namespace endovascular_sim::nodes
 {
 
 /** Bag of an offline session: scene, vessel, the commands of each step, states of instruments and balloons, and the
- *  procedure, the flow of blood and the motion of the patient, as the session node records them. It can be played and
- * replayed. Times are simulated ones. */
+ *  procedure, the flow of blood, contrast medium and the motion of the patient, as the session node records them. It
+ * can be played and replayed. Times are simulated ones. */
 class OfflineBag
 {
 public:
@@ -41,6 +41,9 @@ private:
   void addControls(const flow::FlowControls& controls);
   void addControls(const motion::MotionControls& controls);
   void addMotion(const simulation::Simulation& simulation);
+  void addCells(const session::World& world);
+  void addInjections(const simulation::ContrastInjections& injections);
+  void addContrast(const simulation::Simulation& simulation);
   void addBlood(const simulation::BloodCoupling& blood);
   template <typename Message>
   void write(const char* topic, Message message);
@@ -55,9 +58,11 @@ private:
   // Last written ones:
   std::optional<flow::FlowControls> controls_;
   std::optional<motion::MotionControls> motion_controls_;
-  std::uint64_t flow_steps_ = 0;    ///< number of steps of the flow that had begun at the last step
-  double flow_time_step_ = 0.0;     ///< [s]
-  std::vector<std::string> lines_;  ///< frames of the pressure lines
+  std::uint64_t injection_step_ = 0;  ///< of the newest injections
+  std::size_t injections_ = 0;        ///< number of them that are written
+  std::uint64_t flow_steps_ = 0;      ///< number of steps of the flow that had begun at the last step
+  double flow_time_step_ = 0.0;       ///< [s]
+  std::vector<std::string> lines_;    ///< frames of the pressure lines
 };
 
 }  // namespace endovascular_sim::nodes

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/text/format.h"
 #include "endovascular_sim/CArm.h"
+#include "endovascular_sim/ContrastState.h"
 #include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/TreatmentVisual.h"
@@ -18,6 +19,7 @@
 #include "fluoroscopy/image/png_writer.h"
 #include "intervention/wall_displacement.h"
 #include "nodes/conversions/contact_conversions.h"
+#include "nodes/conversions/contrast_conversions.h"
 #include "nodes/conversions/image_conversions.h"
 #include "nodes/conversions/message_checks.h"
 #include "nodes/conversions/motion_conversions.h"
@@ -40,7 +42,8 @@ RecordedPictures::RecordedPictures(const scene::Scene& scene, std::uint32_t inte
   : has_images_(scene.record.x_ray_frames),
     interval_(interval),
     folder_(std::move(folder)),
-    room_(scene, fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml"))
+    room_(scene, fluoroscopy::MaterialLibrary::load(scene::configFolder() + "/xray/materials.yaml")),
+    states_({1.0 / scene.solver.time_step, scene.solver.time_step}, {}, true)
 {
   loadPatient();
 }
@@ -75,18 +78,25 @@ void RecordedPictures::addScene(const BagMessage& message)
   if (isTopic(message.topic, names::kRodStateVisual) && message.is<RodStateVisual>())
   {
     const auto rod = message.read<RodStateVisual>();
-    std::vector<Eigen::Vector3d> nodes;
-    for (const geometry_msgs::Point& node : rod->nodes)
-      nodes.push_back(fromMessage(node));
-    room_.setWires(toXRayWires(*rod, room_.system().instruments(), room_.system().fluids()), nodes, rod->step);
+    simulation::ImagedInstruments instruments = imagedInstruments(*rod, room_.system().instruments().size());
+    room_.follow(instruments.nodes);
+    states_.addInstruments(rod->step + 1, std::move(instruments));
   }
   else if (isTopic(message.topic, names::kMotionState) && message.is<MotionState>())
   {
     const auto motion = message.read<MotionState>();
-    room_.setMotion(motion->step, {fromMessage(*motion), motion->diaphragm});
+    states_.addMotion(motion->step + 1, {fromMessage(*motion), motion->diaphragm});
   }
   else if (isTopic(message.topic, names::kTreatmentVisual) && message.is<TreatmentVisual>())
-    room_.setTreatment(toXRayWires(*message.read<TreatmentVisual>(), room_.system().filling(), room_.system().metal()));
+  {
+    const auto treatment = message.read<TreatmentVisual>();
+    states_.addTreatment(treatment->step + 1, imagedTreatment(*treatment));
+  }
+  else if (isTopic(message.topic, names::kContrastState) && message.is<ContrastState>())
+  {
+    const auto contrast = message.read<ContrastState>();
+    states_.addContrast(contrast->step + 1, mediumOf(*contrast));
+  }
   else if (isTopic(message.topic, names::kCArmCommand) && message.is<CArm>())
   {
     const auto command = message.read<CArm>();
@@ -101,7 +111,8 @@ void RecordedPictures::addScene(const BagMessage& message)
   }
   else if (isTopic(message.topic, names::kVesselCentreline) && message.is<VesselCentreline>())
   {
-    room_.setCentreline(fromMessage(*message.read<VesselCentreline>()));
+    const auto centreline = message.read<VesselCentreline>();
+    room_.setCentreline(fromMessage(*centreline), lesionsFromMessage(*centreline));
     loadPatient();
   }
   else if (isTopic(message.topic, names::kWallDisplacement) && message.is<WallDisplacement>())
@@ -120,8 +131,9 @@ void RecordedPictures::addFrame(const ros::Time& time)
     return;
   if (std::exchange(wall_moved_, false))
     room_.setVessel(wall_);
-  room_.render(false);  // the exposure control takes over the present scene
-  const fluoroscopy::Frame& frame = room_.render(true);
+  if (const std::optional<ImagedState> state = states_.take(false))
+    room_.setState(*state);
+  const fluoroscopy::Frame& frame = room_.draw(frames_ - 1, true).native;
   fluoroscopy::writePng(folder_ + "/fluoroscopy/" + pictureName(frames_ - 1), frame.pixels, frame.pixels, frame.image);
   ++pictures_;
 }

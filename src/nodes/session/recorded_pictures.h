@@ -44,6 +44,7 @@ private:
   std::uint32_t interval_;
   std::string folder_;
   XRayRoom room_;
+  PulseStates states_;                    ///< every recorded state
   std::optional<ros::Time> gantry_time_;  ///< time up to which the C-arm has moved
   geometry::TriangleMesh wall_;
   bool wall_moved_ = false;  ///< since the last picture

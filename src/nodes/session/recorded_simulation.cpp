@@ -68,7 +68,10 @@ struct RecordedSimulation::Contacts
 };
 
 RecordedSimulation::RecordedSimulation(const SessionBag& recording, const std::string& file, bool results)
-  : file_(file), controls_(recording.controls), motion_controls_(recording.motion_controls)
+  : file_(file),
+    controls_(recording.controls),
+    motion_controls_(recording.motion_controls),
+    injections_(recording.injections)
 {
   const std::shared_ptr<const session::World> world = recordedWorld(recording, file);
   session::SessionSettings settings;
@@ -102,6 +105,21 @@ void RecordedSimulation::prepare(const DriveApplied& applied)
   const auto motion = motion_controls_.find(simulation().steps());
   if (motion != motion_controls_.end() && simulation().motion() != nullptr)
     setMotionControls(motion->second);
+  const auto injections = injections_.find(simulation().steps());
+  if (injections != injections_.end() && simulation().contrast() != nullptr)
+    for (const simulation::ContrastInput& input : injections->second)
+      follow(input);
+}
+
+void RecordedSimulation::follow(const simulation::ContrastInput& input)
+{
+  if (input.injection.volume == 0.0)
+    return input.refill ? session_->refillSyringe() : session_->stopInjection();
+  if (const std::string refusal = session_->refusalOf(input.injection, input.refill); !refusal.empty())
+    throw InputError(
+        file_, names::kContrastInjection,
+        "step " + std::to_string(input.step) + ": " + refusal + ": the bag is damaged; use a copy that is intact");
+  session_->inject(input.injection, input.refill);
 }
 
 void RecordedSimulation::setMotionControls(motion::MotionControls controls)

@@ -40,12 +40,14 @@ private:
 
   void prepare(const DriveApplied& applied);
   void setMotionControls(motion::MotionControls controls);
+  void follow(const simulation::ContrastInput& input);
 
   std::string file_;
   std::shared_ptr<Contacts> contacts_;  ///< null without a vessel
   std::optional<session::Session> session_;
   std::map<std::uint64_t, flow::FlowControls> controls_;             ///< of the flow of blood, by their first step
   std::map<std::uint64_t, motion::MotionControls> motion_controls_;  ///< in the same way
+  std::map<std::uint64_t, std::vector<simulation::ContrastInput>> injections_;  ///< of contrast medium, in the same way
   std::vector<drive::HandCommand> commands_;
 };
 

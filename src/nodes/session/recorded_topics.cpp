@@ -21,6 +21,8 @@
 #include "common/version.h"
 #include "endovascular_sim/BloodFlow.h"
 #include "endovascular_sim/CArm.h"
+#include "endovascular_sim/ContrastCells.h"
+#include "endovascular_sim/ContrastInjection.h"
 #include "endovascular_sim/FlowNetwork.h"
 #include "endovascular_sim/GetVessel.h"
 #include "endovascular_sim/HeartPhase.h"
@@ -37,6 +39,7 @@
 #include "endovascular_sim/WallDisplacement.h"
 #include "fluoroscopy/image/png_writer.h"
 #include "intervention/wall_displacement.h"
+#include "nodes/conversions/contrast_conversions.h"
 #include "nodes/conversions/message_checks.h"
 #include "nodes/conversions/motion_conversions.h"
 #include "nodes/conversions/vessel_conversions.h"
@@ -162,6 +165,8 @@ RecordedTopics::RecordedTopics(const ros::NodeHandle& node, const scene::Scene& 
     subscribeToFluoroscopy();
   if (scene_.flow)
     subscribeToBlood();
+  if (scene_.contrast)
+    subscribeToContrast();
   if (scene_.motion)
     subscribeToMotion();
   subscribeToGraph();
@@ -332,7 +337,28 @@ void RecordedTopics::subscribeToBlood()
 void RecordedTopics::subscribeToMotion()
 {
   recordLatched<MotionControls>(names::kMotionControls, kQueue);
-  listen<MotionState>(names::kMotionState, kQueue, [this](const auto& event) { onMotion(event); });
+  listen<MotionState>(names::kMotionState, kQueue,
+                      [this](const ros::MessageEvent<MotionState const>& event)
+                      {
+                        if (recording_ == nullptr)
+                          return;
+                        fromMessage(*event.getConstMessage());  // throws for an invalid one
+                        onPosePart(names::kMotionState, event, &Recording::motions);
+                      });
+}
+
+void RecordedTopics::subscribeToContrast()
+{
+  recordLatched<ContrastCells>(names::kContrastCells, 1);
+  recordLatched<ContrastInjection>(names::kContrastInjection, kQueue);
+  listen<ContrastState>(names::kContrastState, kQueue,
+                        [this](const ros::MessageEvent<ContrastState const>& event)
+                        {
+                          if (recording_ == nullptr)
+                            return;
+                          mediumOf(*event.getConstMessage());  // throws for an invalid one
+                          onPosePart(names::kContrastState, event, &Recording::contrasts);
+                        });
 }
 
 void RecordedTopics::subscribeToGraph()
@@ -422,37 +448,39 @@ void RecordedTopics::recordNewestPose(Recording& recording) const
   if (recording.error.empty())
     recording.error = recording.results.trajectoryError();
   const auto& pose = *recording.newest_pose;
-  recordMotion(recording, pose.getConstMessage()->step);
+  recording.pose_step = pose.getConstMessage()->step;
+  recordPosePart(names::kMotionState, recording, &Recording::motions);
+  recordPosePart(names::kContrastState, recording, &Recording::contrasts);
   recording.bag.write(node_.resolveName(names::kRodStateVisual), withMessage(pose, rounded(*pose.getConstMessage())));
   recording.newest_pose.reset();
 }
 
-void RecordedTopics::onMotion(const ros::MessageEvent<MotionState const>& event)
+template <typename Message>
+void RecordedTopics::onPosePart(const char* topic, const ros::MessageEvent<Message const>& event,
+                                PoseParts<Message> Recording::*parts)
 {
-  if (recording_ == nullptr)
+  const Message& message = *event.getConstMessage();
+  if (sequence_.isBefore(message))
     return;
-  const MotionState& motion = *event.getConstMessage();
-  if (sequence_.isBefore(motion))
-    return;
-  sequence_.requireKnown(motion, names::kMotionState);
-  fromMessage(motion);  // throws for an invalid one
-  std::map<std::uint64_t, ros::MessageEvent<MotionState const>>& waiting = recording_->motions;
-  waiting[motion.step] = event;
+  sequence_.requireKnown(message, topic);
+  PoseParts<Message>& waiting = recording_->*parts;
+  waiting[message.step] = event;
   if (waiting.size() > kQueue)
     waiting.erase(waiting.begin());
-  if (recording_->pose_step == motion.step)  // it has arrived after the pose of its step
-    recordMotion(*recording_, motion.step);
+  if (recording_->pose_step == message.step)  // it has arrived after the pose of its step
+    recordPosePart(topic, *recording_, parts);
 }
 
-/** Records the motion of a recorded pose, and forgets that of the poses before, which are left out. */
-void RecordedTopics::recordMotion(Recording& recording, std::uint64_t step) const
+/** Records the part of the last recorded pose, and forgets those of the poses before, which are left out. */
+template <typename Message>
+void RecordedTopics::recordPosePart(const char* topic, Recording& recording, PoseParts<Message> Recording::*parts) const
 {
-  recording.pose_step = step;
-  const auto motion = recording.motions.find(step);
-  if (motion == recording.motions.end())
+  PoseParts<Message>& waiting = recording.*parts;
+  const auto part = waiting.find(*recording.pose_step);
+  if (part == waiting.end())
     return;
-  recording.bag.write(node_.resolveName(names::kMotionState), motion->second);
-  recording.motions.erase(recording.motions.begin(), std::next(motion));
+  recording.bag.write(node_.resolveName(topic), part->second);
+  waiting.erase(waiting.begin(), std::next(part));
 }
 
 void RecordedTopics::onContacts(const ros::MessageEvent<ContactForces const>& event)

@@ -99,6 +99,7 @@ private:
   void subscribeToVessel();
   void subscribeToFluoroscopy();
   void subscribeToBlood();
+  void subscribeToContrast();
   void subscribeToMotion();
   void subscribeToGraph();
   void publishInfo();
@@ -128,8 +129,12 @@ private:
    *         RodStateVisual for measured_js */
   template <typename Message>
   void recordJoints(const char* topic, const Message& message, ros::Time time);
-  void onMotion(const ros::MessageEvent<MotionState const>& event);
-  void recordMotion(Recording& recording, std::uint64_t step) const;
+  /** Keeps a message that belongs to a pose until this pose is recorded. @pre recording_ is not null */
+  template <typename Message>
+  void onPosePart(const char* topic, const ros::MessageEvent<Message const>& event,
+                  PoseParts<Message> Recording::*parts);
+  template <typename Message>
+  void recordPosePart(const char* topic, Recording& recording, PoseParts<Message> Recording::*parts) const;
   void onContacts(const ros::MessageEvent<ContactForces const>& event);
   void onForceMap(const ros::MessageEvent<ContactForceMap const>& event);
   void onVessel(const ros::MessageEvent<VesselMesh const>& received);

@@ -9,6 +9,7 @@
 #include <ros/message_event.h>
 
 #include "endovascular_sim/ContactForceMap.h"
+#include "endovascular_sim/ContrastState.h"
 #include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "nodes/session/bag_writer.h"
@@ -21,6 +22,10 @@ namespace endovascular_sim::nodes
 
 /** Rates of hemodynamics/phase and hemodynamics/flow in bags [Hz]. */
 constexpr double kHeartRate = 50.0, kFlowRate = 10.0;
+
+/** Messages that belong to the poses since the last recorded one, by their steps. */
+template <typename Message>
+using PoseParts = std::map<std::uint64_t, ros::MessageEvent<Message const>>;
 
 /** Recording of one run: its bag and its results, in one folder. */
 struct Recording
@@ -45,8 +50,8 @@ struct Recording
   std::uint64_t frames = 0;  ///< X-ray frames that have arrived
   /** Newest state of the wires that is not recorded yet; empty without one. */
   std::optional<ros::MessageEvent<RodStateVisual const>> newest_pose;
-  /** Motion of the patient at the poses since the last recorded one, by their steps. */
-  std::map<std::uint64_t, ros::MessageEvent<MotionState const>> motions;
+  PoseParts<MotionState> motions;          ///< of the patient
+  PoseParts<ContrastState> contrasts;      ///< in vessel and instruments
   std::optional<std::uint64_t> pose_step;  ///< step of the last recorded pose
   /** Newest map of the wall forces that is not recorded yet; empty without one. */
   std::optional<ros::MessageEvent<ContactForceMap const>> newest_map;

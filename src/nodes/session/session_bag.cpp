@@ -6,11 +6,14 @@
 
 #include "common/error.h"
 #include "common/hash.h"
+#include "common/releases.h"
 #include "common/version.h"
+#include "endovascular_sim/ContrastInjection.h"
 #include "endovascular_sim/HemodynamicControls.h"
 #include "endovascular_sim/MotionControls.h"
 #include "endovascular_sim/SessionEnd.h"
 #include "endovascular_sim/SimulationRun.h"
+#include "nodes/conversions/contrast_conversions.h"
 #include "nodes/conversions/flow_conversions.h"
 #include "nodes/conversions/motion_conversions.h"
 #include "nodes/runtime/ros_names.h"
@@ -52,10 +55,11 @@ void requireSamePhysics(const std::string& file, const SessionInfo& info)
                      "holds no physics number: version " + info.software_version + " recorded it" + here +
                          "; replay it with version " + info.software_version +
                          ", at the commit from which it was recorded");
+  const std::string release = releaseOfPhysics(info.physics_number);
   throw InputError(file, names::kSessionInfo,
                    "has physics " + std::to_string(info.physics_number) + ", recorded by version " +
-                       info.software_version + ", commit " + info.commit + here +
-                       "; replay it with a build of commit " + info.commit);
+                       info.software_version + ", commit " + info.commit + here + "; replay it with " +
+                       (release.empty() ? "a build of commit " + info.commit : release));
 }
 
 /** Message of a type of this version.
@@ -78,6 +82,7 @@ struct BagParts
   // Of this run and the one before:
   std::vector<boost::shared_ptr<HemodynamicControls>> controls;
   std::vector<boost::shared_ptr<MotionControls>> motion_controls;
+  std::vector<boost::shared_ptr<ContrastInjection>> injections;
 };
 
 /** Adds a message to the content of a session. */
@@ -108,6 +113,8 @@ void addMessage(const std::string& file, const BagMessage& message, BagParts& pa
     parts.controls.push_back(readMessage<HemodynamicControls>(file, names::kHemodynamicControls, message));
   else if (isTopic(message.topic, names::kMotionControls))
     parts.motion_controls.push_back(readMessage<MotionControls>(file, names::kMotionControls, message));
+  else if (isTopic(message.topic, names::kContrastInjection))
+    parts.injections.push_back(readMessage<ContrastInjection>(file, names::kContrastInjection, message));
   else if (isTopic(message.topic, names::kSessionEnd))
     session.recorded_steps = readMessage<SessionEnd>(file, names::kSessionEnd, message)->steps;
 }
@@ -173,6 +180,9 @@ SessionBag readSessionBag(const std::string& file)
   for (const auto& controls : parts.motion_controls)
     if (controls->run == parts.run)
       session.motion_controls[controls->step] = fromMessage(*controls);
+  for (const auto& injection : parts.injections)
+    if (injection->run == parts.run)
+      session.injections[injection->step].push_back(fromMessage(*injection));
   requireUndamaged(file, session);
   if (session.steps.empty())
     throw InputError(file, names::kDriveApplied, "holds no step; record a session that steps" + damageOf(session));

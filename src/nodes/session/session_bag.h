@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "endovascular_sim/DriveApplied.h"
 #include "endovascular_sim/SessionInfo.h"
@@ -12,6 +13,7 @@
 #include "flow/coupling/flow_source.h"
 #include "motion/motion_controls.h"
 #include "nodes/session/bag_records.h"
+#include "simulation/contrast_injections.h"
 
 namespace endovascular_sim::nodes
 {
@@ -27,6 +29,8 @@ struct SessionBag
   std::map<std::uint64_t, flow::FlowControls> controls;
   /** Controls of the patient's motion in this run, in the same way. */
   std::map<std::uint64_t, motion::MotionControls> motion_controls;
+  /** Injections of contrast medium in this run, by their first step, in their order. */
+  std::map<std::uint64_t, std::vector<simulation::ContrastInput>> injections;
   std::uint64_t first_step = 0;  ///< number of steps before the first one of the recording
   std::string state;             ///< saved state from which the recording continues; empty at the scene's beginning
   std::optional<std::uint64_t> recorded_steps;  ///< number of steps of the session; empty: the bag has no end

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "common/error.h"
+#include "endovascular_sim/ContrastState.h"
 #include "endovascular_sim/MotionState.h"
 #include "endovascular_sim/RodStateVisual.h"
 #include "endovascular_sim/SessionSample.h"
@@ -66,7 +67,8 @@ public:
     if (message.step > handled_ + kStepQueue)
       throw InputError(topic, "step", "is " + std::to_string(message.step) + ", far ahead of the simulation");
     if constexpr (std::is_same_v<Message, RodStateVisual> || std::is_same_v<Message, SessionSample> ||
-                  std::is_same_v<Message, TreatmentVisual> || std::is_same_v<Message, MotionState>)
+                  std::is_same_v<Message, TreatmentVisual> || std::is_same_v<Message, MotionState> ||
+                  std::is_same_v<Message, ContrastState>)
       if (!(std::abs(message.time - static_cast<double>(message.step + 1) * time_step_) < time_step_))
         throw InputError(topic, "time", "is not that of its step");
   }

@@ -116,6 +116,8 @@ SceneSummary sceneSummary(const SessionInfo& info)
       summary.pressure_lines.push_back(driven.instrument.name);
       summary.pressure_frames.push_back(driven.instrument.name + nodes::names::kTipFrameOf);
     }
+  if (scene.contrast)
+    summary.syringe = scene.contrast->syringe();
   if (scene.procedure)
   {
     summary.steps = stepsOf(*scene.procedure);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "contrast/injection/injection.h"
 #include "endovascular_sim/SessionInfo.h"
 #include "instrument/balloon.h"
 #include "visualization/instrument_tubes.h"
@@ -39,12 +40,13 @@ struct StepSummary
 struct SceneSummary
 {
   std::string name;
-  double duration = 0.0;                       ///< [s]
-  std::vector<InstrumentSummary> instruments;  ///< from the inside out
-  std::vector<StepSummary> steps;              ///< of the procedure
-  std::vector<std::string> pressure_lines;     ///< instruments with a pressure line, where blood flows
-  std::vector<std::string> pressure_frames;    ///< frames of their readings
-  bool is_guided = false;                      ///< true: a person does these steps
+  double duration = 0.0;                               ///< [s]
+  std::vector<InstrumentSummary> instruments;          ///< from the inside out
+  std::vector<StepSummary> steps;                      ///< of the procedure
+  std::vector<std::string> pressure_lines;             ///< instruments with a pressure line, where blood flows
+  std::vector<std::string> pressure_frames;            ///< frames of their readings
+  contrast::Syringe syringe = contrast::kHandSyringe;  ///< of contrast medium
+  bool is_guided = false;                              ///< true: a person does these steps
 
   std::vector<visualization::InstrumentShape> shapes() const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <sensor_msgs/JointState.h>
@@ -11,6 +12,7 @@
 #include "endovascular_sim/AlignExpert.h"
 #include "endovascular_sim/CArm.h"
 #include "endovascular_sim/GoToStep.h"
+#include "endovascular_sim/InjectContrast.h"
 #include "endovascular_sim/SetHemodynamics.h"
 #include "endovascular_sim/SetMotion.h"
 #include "endovascular_sim/SetSubject.h"
@@ -58,6 +60,8 @@ const char* serviceOf(Request request)
       return names::kSetHemodynamics;
     case Request::kSetMotion:
       return names::kSetMotion;
+    case Request::kInject:
+      return names::kInjectContrast;
     case Request::kAlignExpert:
       return names::kAlignExpert;
     case Request::kStart:
@@ -168,6 +172,7 @@ void SessionClient::subscribe()
                                                                pressure_.add(*message);
                                                              }));
   subscribeToMotion();
+  subscribeToContrast();
   search_ = node_.createWallTimer(ros::WallDuration(kSearchPeriod),
                                   [this](const ros::WallTimerEvent& /*event*/) { searchInstruments(); });
 }
@@ -188,6 +193,16 @@ void SessionClient::subscribeToMotion()
                                                                  }));
 }
 
+void SessionClient::subscribeToContrast()
+{
+  subscribers_.push_back(nodes::subscribeGuarded<ContrastState>(node_, names::kContrastState, 1,
+                                                                [this](const ContrastState& message)
+                                                                {
+                                                                  const std::lock_guard<std::mutex> lock(mutex_);
+                                                                  contrast_.add(message);
+                                                                }));
+}
+
 SessionState SessionClient::state() const
 {
   SessionState state;
@@ -196,6 +211,7 @@ SessionState SessionClient::state() const
     state = state_;
     state.blood = pressure_.state();
     state.motion = motion_.status();
+    state.contrast = contrast_.status();
     if (secondsSince(player_received_) > kPlayerAge)
       state.player.reset();
     state.wire_age = state.has_wire ? secondsSince(wire_received_) : 0.0;
@@ -320,6 +336,7 @@ void SessionClient::receiveWire(const RodStateVisualConstPtr& message)
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool is_jump = std::abs(message->time - state_.wire.time) > kSameRun;
   motion_.countWire();
+  contrast_.countWire();
   tip_.reset();
   if (!message->nodes.empty())
     tip_ = motion_.pullBack(toEigen(message->nodes.back()));
@@ -519,6 +536,18 @@ void SessionClient::setMotion(const MotionRequest& request)
   service.request.breath_hold = static_cast<std::int8_t>(request.breath_hold);
   const std::string name = node_.resolveName(names::kSetMotion);
   calls_.begin(Request::kSetMotion, names::kSetMotion, [name, service] { return outcomeOf(name, service); });
+}
+
+void SessionClient::inject(const ContrastRequest& request)
+{
+  InjectContrast service;
+  service.request.volume = request.volume;
+  service.request.rate = request.rate;
+  service.request.rise = ContrastRequest::kRise;
+  service.request.concentration = std::numeric_limits<double>::quiet_NaN();
+  service.request.refill = request.refill ? 1 : 0;
+  const std::string name = node_.resolveName(names::kInjectContrast);
+  calls_.begin(Request::kInject, names::kInjectContrast, [name, service] { return outcomeOf(name, service); });
 }
 
 void SessionClient::alignExpert(std::uint8_t alignment)

@@ -45,6 +45,7 @@ public:
   void alignExpert(std::uint8_t alignment) override;
   void setBlood(const BloodRequest& request) override;
   void setMotion(const MotionRequest& request) override;
+  void inject(const ContrastRequest& request) override;
   void controlPlayer(std::uint8_t command, double value) override { player_->give(command, value); }
 
 private:
@@ -76,6 +77,7 @@ private:
 
   void subscribe();
   void subscribeToMotion();
+  void subscribeToContrast();
   void receiveScene(const SessionInfoConstPtr& info);
   void receiveWire(const RodStateVisualConstPtr& message);
   void findBranch();
@@ -102,6 +104,7 @@ private:
   ErrorWatch errors_;
   PressureMonitor pressure_;
   MotionMonitor motion_;
+  ContrastMonitor contrast_;
   vessel::BranchFinder branches_{vessel::CentrelineTree()};
   std::map<std::string, std::shared_ptr<Topics>> instruments_;
   std::map<std::string, Diagnosis> diagnoses_;

@@ -22,6 +22,7 @@ enum class Request
   kSetSubject,     ///< names the trainee, see SessionPort::setSubject()
   kSetBlood,       ///< changes the circulation, see SessionPort::setBlood()
   kSetMotion,      ///< changes heart and breath, see SessionPort::setMotion()
+  kInject,         ///< injects contrast medium, see SessionPort::inject()
   kAlignExpert,    ///< shows the expert beside the trainee, see SessionPort::alignExpert()
 };
 
@@ -43,6 +44,16 @@ struct MotionRequest
   int breath_hold = -1;                 ///< 0 or 1; −1: unchanged
 
   static double unchanged() { return std::numeric_limits<double>::quiet_NaN(); }
+};
+
+/** Injection of contrast medium. */
+struct ContrastRequest
+{
+  double volume = 0.0;  ///< 0: the present injection ends [m³]
+  double rate = 0.0;    ///< [m³/s]
+  bool refill = false;  ///< the syringe is filled before
+
+  static constexpr double kRise = 0.3;  ///< time in which a thumb reaches the rate [s]
 };
 
 /** Connection of the panel to a session. No function blocks. */
@@ -67,6 +78,7 @@ public:
   virtual void alignExpert(std::uint8_t alignment) = 0;
   virtual void setBlood(const BloodRequest& request) = 0;
   virtual void setMotion(const MotionRequest& request) = 0;
+  virtual void inject(const ContrastRequest& request) = 0;
 };
 
 }  // namespace endovascular_sim::rviz_plugin

@@ -11,6 +11,7 @@
 #include "endovascular_sim/PlayerState.h"
 #include "endovascular_sim/ProcedureStep.h"
 #include "endovascular_sim/RodStateVisual.h"
+#include "rviz_plugin/model/contrast_monitor.h"
 #include "rviz_plugin/model/motion_monitor.h"
 #include "rviz_plugin/model/pressure_monitor.h"
 #include "rviz_plugin/model/scene_summary.h"
@@ -56,15 +57,16 @@ struct SessionState
   std::vector<std::string> warnings;  ///< of the diagnostics
   Verdict verdict;                    ///< of the last recording
   bool is_recording = false;
-  unsigned run = 0;                    ///< number of the run
-  std::uint64_t dead_man_stops = 0;    ///< see VelocityCommander::timeOuts()
-  std::string answer;                  ///< to the last request
-  std::vector<std::string> waiting;    ///< services that have not answered yet, with the time since the call
-  std::string subject;                 ///< pseudonym of the trainee
-  std::optional<ExpertState> expert;   ///< none before an expert is recorded
-  std::optional<BloodState> blood;     ///< none in a scene without flow
-  std::optional<MotionStatus> motion;  ///< none in a scene whose patient rests
-  std::optional<PlayerState> player;   ///< of a recording that is played; none in a session
+  unsigned run = 0;                        ///< number of the run
+  std::uint64_t dead_man_stops = 0;        ///< see VelocityCommander::timeOuts()
+  std::string answer;                      ///< to the last request
+  std::vector<std::string> waiting;        ///< services that have not answered yet, with the time since the call
+  std::string subject;                     ///< pseudonym of the trainee
+  std::optional<ExpertState> expert;       ///< none before an expert is recorded
+  std::optional<BloodState> blood;         ///< none in a scene without flow
+  std::optional<MotionStatus> motion;      ///< none in a scene whose patient rests
+  std::optional<ContrastStatus> contrast;  ///< none in a scene without contrast medium
+  std::optional<PlayerState> player;       ///< of a recording that is played; none in a session
 
   /** Step of the procedure that is to be done, from 0; before the first message the first one. */
   std::size_t presentStep() const { return has_step && step.step_of_procedure > 0 ? step.step_of_procedure - 1U : 0U; }

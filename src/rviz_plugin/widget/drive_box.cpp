@@ -20,8 +20,6 @@ namespace
 
 constexpr double kVacuum = -0.8e5;         // gauge pressure of a deflated balloon [Pa]
 constexpr double kLargestPressure = 40.0;  // that can be typed [atm]
-constexpr int kButtonRim = 14;             // of a button beside its text [pixels]
-constexpr int kSpinButtons = 24;           // width of the arrows beside a typed number, with its rim [pixels]
 
 }  // namespace
 
@@ -90,8 +88,7 @@ QWidget* DriveBox::makeBalloonRow()
   typed_->setDecimals(1);
   typed_->setRange(0.0, kLargestPressure);
   typed_->setSuffix(" atm");
-  typed_->setMinimumWidth(typed_->fontMetrics().horizontalAdvance("00.0 atm") + kSpinButtons);
-  typed_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  makeNarrow(*typed_, "00.0 atm");
   const auto set = [this]
   {
     setPressure(typed_->value());
@@ -116,13 +113,9 @@ QWidget* DriveBox::makeBalloonRow()
                                      }));
     layout->addWidget(inflation_.back(), 2, column++);
   }
-  // As narrow as their texts: the row has room in a panel that is as wide as its other rows.
   for (QWidget* part : inflation_)
     if (auto* button = qobject_cast<QPushButton*>(part))
-    {
-      button->setMinimumWidth(button->fontMetrics().horizontalAdvance(button->text()) + kButtonRim);
-      button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    }
+      makeNarrow(*button);
   for (int k = 0; k < layout->columnCount(); ++k)
     layout->setColumnStretch(k, k == 0 || k == layout->columnCount() - 1 ? 3 : 2);
   row->hide();

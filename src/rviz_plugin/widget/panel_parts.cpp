@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <QAbstractSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
@@ -11,6 +12,20 @@
 
 namespace endovascular_sim::rviz_plugin
 {
+namespace
+{
+
+constexpr int kButtonRim = 14;    // of a button beside its text [pixels]
+constexpr int kSpinButtons = 24;  // width of the arrows beside a typed number, with its rim [pixels]
+
+/** Gives a widget a least width, and no other effect on the width of the panel. */
+void setLeastWidth(QWidget& widget, int width)
+{
+  widget.setMinimumWidth(width);
+  widget.setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+}
+
+}  // namespace
 
 QPushButton* panelButton(const QString& text, const QString& name, std::function<void()> clicked)
 {
@@ -41,6 +56,16 @@ QSpinBox* numberBox(const QString& name, const QString& unit, int low, int high)
   box->setSuffix(unit);
   box->setFocusPolicy(Qt::ClickFocus);
   return box;
+}
+
+void makeNarrow(QPushButton& button)
+{
+  setLeastWidth(button, button.fontMetrics().horizontalAdvance(button.text()) + kButtonRim);
+}
+
+void makeNarrow(QAbstractSpinBox& box, const QString& widest)
+{
+  setLeastWidth(box, box.fontMetrics().horizontalAdvance(widest) + kSpinButtons);
 }
 
 void showNumber(QSpinBox& box, double value)

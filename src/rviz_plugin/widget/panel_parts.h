@@ -4,6 +4,7 @@
 
 #include <QString>
 
+class QAbstractSpinBox;
 class QLabel;
 class QPushButton;
 class QSpinBox;
@@ -25,6 +26,12 @@ QLabel* panelLabel(const QString& name);
  *  @param name of the object
  *  @param unit after the number, e.g. " mmHg" */
 QSpinBox* numberBox(const QString& name, const QString& unit, int low, int high);
+
+/** Makes a button as narrow as its text: its row has room in a panel that is as wide as its other rows. */
+void makeNarrow(QPushButton& button);
+
+/** Makes a box of a number as narrow as its widest text with its unit. */
+void makeNarrow(QAbstractSpinBox& box, const QString& widest);
 
 /** Shows a value unless somebody types another one. */
 void showNumber(QSpinBox& box, double value);

@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 
 #include "rviz_plugin/model/motion_obstacle.h"
+#include "rviz_plugin/widget/contrast_box.h"
 #include "rviz_plugin/widget/drive_box.h"
 #include "rviz_plugin/widget/expert_row.h"
 #include "rviz_plugin/widget/font_scale.h"
@@ -71,13 +72,15 @@ SessionWidget::SessionWidget(SessionPort& port, QWidget* parent, const std::stri
   pressure_->hide();
   motion_ = new MotionBox(port_, *this);
   motion_->hide();
+  contrast_ = new ContrastBox(port_, *this);
+  contrast_->hide();
   notice_ = panelLabel("notice");
   notice_->setWordWrap(true);
   notice_->setFixedHeight(kNoticeLines * fontMetrics().lineSpacing() + 8);
   for (QWidget* part :
        {static_cast<QWidget*>(session_), static_cast<QWidget*>(player_), static_cast<QWidget*>(drive_),
         static_cast<QWidget*>(notice_), static_cast<QWidget*>(pressure_), static_cast<QWidget*>(motion_),
-        static_cast<QWidget*>(c_arm_), views, static_cast<QWidget*>(box_)})
+        static_cast<QWidget*>(contrast_), static_cast<QWidget*>(c_arm_), views, static_cast<QWidget*>(box_)})
     layout->addWidget(part);
   subject_ = new SubjectRow(port_, *this);
   layout->addWidget(subject_);
@@ -175,6 +178,9 @@ void SessionWidget::showPatient()
   motion_->setVisible(state_.motion.has_value());
   if (state_.motion)
     motion_->showMotion(*state_.motion, state_.blood.has_value(), state_.player.has_value());
+  contrast_->setVisible(state_.contrast.has_value());
+  if (state_.contrast)
+    contrast_->showContrast(*state_.contrast, state_.scene.syringe, state_.player.has_value());
 }
 
 void SessionWidget::showNotice()

@@ -17,6 +17,7 @@ namespace endovascular_sim::rviz_plugin
 {
 
 class CArmRow;
+class ContrastBox;
 class DriveBox;
 class ExpertRow;
 class MotionBox;
@@ -75,7 +76,7 @@ private:
   void showNotice();
   void endLesson();
   void showPlayer();
-  void showPatient();  ///< blood, heart and breath
+  void showPatient();  ///< blood, heart and breath, contrast medium
 
   SessionPort& port_;
   Joystick joystick_;
@@ -86,6 +87,7 @@ private:
   StateBox* box_;
   PressureBox* pressure_;
   MotionBox* motion_;
+  ContrastBox* contrast_;
   CArmRow* c_arm_;
   QLabel* notice_;  ///< error of the trainee, or reason why the instrument does not follow
   SubjectRow* subject_;

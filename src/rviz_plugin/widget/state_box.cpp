@@ -17,6 +17,8 @@ namespace
 {
 
 constexpr std::size_t kMostTexts = 3;  // of the shown errors, and of the warnings
+constexpr int kHintLines = 4;          // for which there is always room: rows below do not move
+constexpr int kHintRim = 4;            // [pixels]
 
 QStringList firstTexts(const std::vector<std::string>& texts)
 {
@@ -53,11 +55,18 @@ StateBox::StateBox()
   auto* layout = new QFormLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setVerticalSpacing(2);
+  // The hint comes first: on a low screen the lower rows are cut.
+  hint_ = panelLabel("hint");
+  hint_->setMinimumHeight(kHintLines * hint_->fontMetrics().lineSpacing() + 2 * kHintRim);
+  hint_->setAlignment(Qt::AlignTop);
+  hint_->setStyleSheet(QString("background: #fff6d6; color: #4a3c00; padding: %1px").arg(kHintRim));
+  hint_->setWordWrap(true);
+  layout->addRow(hint_);
   gauge_ = new ForceGauge;
   layout->addRow(gauge_);
   const std::pair<const char*, QLabel**> rows[] = {
-      {"Force", &force_},   {"Insertion", &insertion_}, {"Rotation", &rotation_}, {"Torque", &torque_},
-      {"Branch", &branch_}, {"Time", &time_},           {"Procedure", &step_}};
+      {"Insertion", &insertion_}, {"Rotation", &rotation_}, {"Force", &force_},   {"Torque", &torque_},
+      {"Branch", &branch_},       {"Time", &time_},         {"Procedure", &step_}};
   for (const auto& [text, target] : rows)
   {
     *target = panelLabel(QString(text).toLower());
@@ -69,10 +78,8 @@ StateBox::StateBox()
     const char* name;
     QLabel** target;
     const char* style;
-  } texts[] = {{"hint", &hint_, "background: #fff6d6; color: #4a3c00; padding: 4px"},
-               {"answer", &answer_, ""},
-               {"errors", &errors_, "color: #c62f2f"},
-               {"warnings", &warnings_, "color: #606060"}};
+  } texts[] = {
+      {"answer", &answer_, ""}, {"errors", &errors_, "color: #c62f2f"}, {"warnings", &warnings_, "color: #606060"}};
   for (const auto& text : texts)
   {
     *text.target = panelLabel(text.name);
@@ -97,7 +104,7 @@ void StateBox::showState(const SessionState& state, const PanelTexts& texts)
   for (const auto& [target, text] : messages)
   {
     target->setText(text);
-    target->setVisible(!text.isEmpty());  // an empty row would take the place of the hint
+    target->setVisible(!text.isEmpty());
   }
 }
 

@@ -80,6 +80,14 @@ Eigen::Isometry3d RobotScene::pose() const
   return pose;
 }
 
+std::size_t Scene::injectingInstrument() const
+{
+  const auto found = std::find_if(instruments.begin(), instruments.end(),
+                                  [this](const DrivenInstrument& driven)
+                                  { return driven.instrument.name == contrast.value().instrument; });
+  return static_cast<std::size_t>(found - instruments.begin());
+}
+
 double Scene::longest() const
 {
   double length = 0.0;

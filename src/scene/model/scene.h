@@ -20,6 +20,7 @@
 #include "robot/robot_model.h"
 #include "rod/stepping/scheme_traits.h"
 #include "rod/stepping/stepper.h"
+#include "scene/model/scene_contrast.h"
 #include "scene/model/scene_procedure.h"
 #include "sensor/sensor_settings.h"
 #include "vessel/anatomy/tube.h"
@@ -357,8 +358,9 @@ struct Scene
   std::vector<RollerScene> rollers;  ///< in place of a vessel
   SamplingScene sampling;
   SolverScene solver;
-  std::optional<FlowScene> flow;      ///< if empty, blood does not flow
-  std::optional<MotionScene> motion;  ///< if empty, the patient does not move
+  std::optional<FlowScene> flow;          ///< if empty, blood does not flow
+  std::optional<ContrastScene> contrast;  ///< if empty, no contrast medium is injected
+  std::optional<MotionScene> motion;      ///< if empty, the patient does not move
   std::optional<FluoroscopyScene> fluoroscopy;
   bool haptic_device = false;  ///< true: start the haptic device node
   std::optional<RobotScene> robot;
@@ -368,6 +370,9 @@ struct Scene
   std::optional<ErrorLimits> errors;  ///< empty: the defaults
   std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
   std::string resolved_yaml;          ///< canonical text of the scene, with overrides and included files merged
+
+  /** Index of the instrument that injects contrast medium. @pre the scene has the key `contrast` */
+  std::size_t injectingInstrument() const;
 
   /** Length of the longest instrument [m]. */
   double longest() const;

@@ -19,6 +19,7 @@ enum class StepAction
   kInflate,   ///< set the pressure of a balloon and wait; 0 deflates
   kExchange,  ///< withdraw one instrument completely, then advance another one
   kWait,      ///< wait for a duration
+  kInject,    ///< inject contrast medium, until the injection has ended
 };
 
 /** Goal of a step. The step is complete when all given conditions hold. */
@@ -66,7 +67,7 @@ struct StepScene
   std::string hint;   ///< advice to a person who does the step; empty: none
   std::string view;   ///< view of the C-arm (fluoroscopy/gantry/view.h); empty: view of the previous step
   StepAction action = StepAction::kWait;
-  std::string instrument;   ///< moved instrument; in an exchange, the withdrawn one
+  std::string instrument;   ///< moved instrument; in an exchange, the withdrawn one; the one that injects
   std::string replacement;  ///< instrument that an exchange advances
   GoalScene until;
   double speed = 0.02;      ///< insertion speed [m/s]
@@ -80,6 +81,9 @@ struct StepScene
   /** Breath-hold of a wait, true: held; empty: any. The scripted operator asks for it when the wait begins, and waits
    * until the breath is held. For a person the wait counts while it is set. */
   std::optional<bool> breath_held;
+  double volume = 0.0;          ///< of an injection [m³]
+  double rate = 0.0;            ///< of an injection, after the rise [m³/s]
+  double rise = 0.3;            ///< of the rate of an injection [s]
   bool until_diastole = false;  ///< true: a wait ends in a diastole
   double time_limit = 30.0;     ///< duration after which the step fails [s]
   bool any_branch = false;      ///< true: no branch counts as wrong

@@ -213,6 +213,30 @@ void visitPressureLine(yaml::Fields& fields, instrument::Instrument& instrument)
       });
 }
 
+/** Schema of the side holes. */
+void visitSideHoles(yaml::Fields& fields, instrument::Instrument& instrument)
+{
+  std::optional<instrument::SideHoles>& holes = instrument.side_holes;
+  if (fields.reading() ? !fields.has("side_holes") : !holes.has_value())
+    return;
+  if (!holes)
+    holes.emplace();
+  if (fields.reading() && instrument.inner_radius == 0.0)
+    fields.reject("side_holes", "a shaft without a lumen has none; remove it");
+  fields.map("side_holes",
+             [&](yaml::Fields& keys)
+             {
+               keys.integer("count", holes->count, 1, 100, Need::kRequired);
+               keys.number("spacing", holes->spacing, quantities::kFromTip, Range::positive(), Need::kRequired);
+               if (keys.reading())
+                 holes->from_tip = holes->spacing;
+               keys.number("from_tip", holes->from_tip, quantities::kFromTip, Range::positive());
+               const double last = holes->from_tip + (holes->count - 1) * holes->spacing;
+               if (keys.reading() && last >= instrument.wire.length())
+                 keys.reject("count", "the last hole lies beyond the shaft; give fewer, or a smaller spacing");
+             });
+}
+
 }  // namespace
 
 bool isTopicName(const std::string& name)
@@ -234,6 +258,7 @@ void visitInstrument(yaml::Fields& fields, instrument::Instrument& instrument)
   {
     visitShaft(fields, instrument);
     visitPressureLine(fields, instrument);
+    visitSideHoles(fields, instrument);
   }
   if (is_balloon)
     visitBalloon(fields, instrument);

@@ -14,7 +14,7 @@ namespace
 {
 
 // Keys of the actions, in the order of StepAction.
-const std::vector<std::string> kActions = {"advance", "withdraw", "rotate", "inflate", "exchange", "wait"};
+const std::vector<std::string> kActions = {"advance", "withdraw", "rotate", "inflate", "exchange", "wait", "inject"};
 const std::vector<std::string> kBreaths = {"hold", "free"};
 const std::vector<std::string> kHeartPhases = {"diastole"};
 
@@ -82,7 +82,7 @@ void visitAction(yaml::Fields& fields, StepScene& step)
       found = static_cast<int>(k);
     }
     if (found < 0)
-      fields.reject("", "has no action; give one of advance, withdraw, rotate, inflate, exchange, wait");
+      fields.reject("", "has no action; give one of advance, withdraw, rotate, inflate, exchange, wait, inject");
     step.action = static_cast<StepAction>(found);
   }
   const std::string& key = kActions[static_cast<std::size_t>(step.action)];
@@ -136,6 +136,11 @@ void visitStep(yaml::Fields& fields, StepScene& step)
     fields.number("pressure", step.pressure, quantities::kPressure,
                   {-units::kAtmosphere, std::numeric_limits<double>::max()}, Need::kRequired);
     fields.number("for", step.duration, quantities::kWait, Range::nonNegative(), Need::kRequired);
+    return;
+  }
+  if (step.action == StepAction::kInject)
+  {
+    visitInjection(fields, step.volume, step.rate, step.rise);
     return;
   }
   if (step.action == StepAction::kExchange)
@@ -223,6 +228,21 @@ void checkSupport(const yaml::Fields& fields, const Scene& scene, std::size_t k)
                   "no step so far has the phase '" + support.again_from + "'; name an earlier phase");
 }
 
+/** Rejects a step with an injection that is impossible in the scene. */
+void checkInjection(const yaml::Fields& fields, const Scene& scene, const std::string& path, const StepScene& step)
+{
+  if (step.action != StepAction::kInject)
+    return;
+  if (!scene.contrast)
+    fields.reject(path + "inject", "needs contrast medium; give the scene the key contrast, e.g. contrast: {}");
+  if (step.instrument != scene.contrast->instrument)
+    fields.reject(path + "inject", "'" + step.instrument + "' does not inject; name '" + scene.contrast->instrument +
+                                       "', or set contrast.instrument");
+  const contrast::Injection injection = scene.contrast->injection(step.volume, step.rate, step.rise);
+  if (const std::string refusal = refusalOf(injection, scene.contrast->syringe()); !refusal.empty())
+    rejectInjection(fields, path, refusal);
+}
+
 }  // namespace
 
 void visitProcedure(yaml::Fields& fields, ProcedureScene& procedure)
@@ -266,7 +286,8 @@ void checkProcedure(const yaml::Fields& fields, const Scene& scene)
                                      "drive.source: topic, or procedure.guided: false"
                                    : "' is not driven by the procedure; name an instrument of the scene and set its "
                                      "drive.source: procedure";
-    if (step.action != StepAction::kWait && scripted(scene, step.instrument) == nullptr)
+    const bool moves = step.action != StepAction::kWait && step.action != StepAction::kInject;
+    if (moves && scripted(scene, step.instrument) == nullptr)
       fields.reject(path + kActions[static_cast<std::size_t>(step.action)], "'" + step.instrument + remedy);
     if (step.action == StepAction::kInflate && !scripted(scene, step.instrument)->instrument.balloon)
       fields.reject(path + "inflate", "'" + step.instrument + "' has no balloon; name a balloon catheter");
@@ -274,6 +295,7 @@ void checkProcedure(const yaml::Fields& fields, const Scene& scene)
       fields.reject(path + "for", "'" + step.replacement + remedy);
     if (step.hyperaemia && !scene.flow)
       fields.reject(path + "hyperaemia", "needs blood that flows; give the scene the key flow, e.g. flow: adult");
+    checkInjection(fields, scene, path, step);
     checkSupport(fields, scene, k);
     if (!step.view.empty())
       checkView(fields, path + "view", step.view, scene);

@@ -203,6 +203,7 @@ void checkScene(const yaml::Fields& fields, const Scene& scene)
   checkWall(fields, scene);
   if (scene.instruments.size() > 1)
     checkStack(fields, scene);
+  checkContrast(fields, scene);
   checkProcedure(fields, scene);
   checkPatient(fields, scene);
   checkEnds(fields, scene);
@@ -392,6 +393,8 @@ void visitScene(yaml::Fields& fields, Scene& scene)
   {
     if (!scene.fluoroscopy)
       scene.fluoroscopy.emplace();
+    if (fields.reading() && fields.has("contrast"))
+      scene.fluoroscopy->iodine = 0.0;
     fields.map("fluoroscopy", [&scene](yaml::Fields& c_arm) { visitFluoroscopy(c_arm, *scene.fluoroscopy); });
   }
   if (fields.reading() ? fields.has("flow") : scene.flow.has_value())
@@ -399,6 +402,12 @@ void visitScene(yaml::Fields& fields, Scene& scene)
     if (!scene.flow)
       scene.flow.emplace();
     fields.map("flow", [&scene](yaml::Fields& flow) { visitFlow(flow, *scene.flow); });
+  }
+  if (fields.reading() ? fields.has("contrast") : scene.contrast.has_value())
+  {
+    if (!scene.contrast)
+      scene.contrast.emplace();
+    fields.map("contrast", [&scene](yaml::Fields& keys) { visitContrast(keys, *scene.contrast, scene); });
   }
   if (fields.reading() ? fields.has("motion") : scene.motion.has_value())
   {

@@ -57,6 +57,16 @@ void visitProfile(yaml::Fields& fields, DriveProfile& profile, const Quantity& q
 void visitFlow(yaml::Fields& fields, FlowScene& flow);
 /** Rejects flow without a tree of vessels, or at a rate that the steps do not divide. */
 void checkFlow(const yaml::Fields& fields, const Scene& scene);
+/** Schema of `contrast`. @param scene with its instruments */
+void visitContrast(yaml::Fields& fields, ContrastScene& contrast, const Scene& scene);
+/** Keys `volume`, `rate` and `rise` of an injection. */
+void visitInjection(yaml::Fields& fields, double& volume, double& rate, double& rise);
+/** Rejects the value of an injection that a refusal of contrast::refusalOf() names by its first word.
+ *  @param path of the injection, with a final dot */
+void rejectInjection(const yaml::Fields& fields, const std::string& path, const std::string& refusal);
+/** Rejects contrast medium without flow, beside an even one, without an instrument that injects it, and injections that
+ *  overlap or have nothing inside. */
+void checkContrast(const yaml::Fields& fields, const Scene& scene);
 /** Schema of `motion`. @param flow drives the heart, if there is one */
 void visitMotion(yaml::Fields& fields, MotionScene& motion, const std::optional<FlowScene>& flow);
 /** Rejects motion without a vessel that instruments enter, and with a scheme whose walls rest. */

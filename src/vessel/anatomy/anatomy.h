@@ -43,6 +43,16 @@ struct Bulge
   double blend = 1.0;                                ///< blending range with the lumen, in radii of the bulge
 };
 
+/** Way of contrast medium whose time is counted in frames (TIMI frame count, Gibson et al. 1996): from the origin of a
+ *  branch to a place on the same or a later one. */
+struct Landmark
+{
+  std::string name;
+  int origin = 0;         ///< index of the branch at whose origin the first frame is
+  int branch = 0;         ///< index of the branch of the last frame
+  double position = 0.0;  ///< place on it as a fraction of its length outside of its parent
+};
+
 /** Parametric vessel tree of centrelines and diameters; the content of a file in config/anatomies. */
 struct Anatomy
 {
@@ -53,6 +63,7 @@ struct Anatomy
   double longest_facet = 2e-3;          ///< longest edge of the mesh [m]
   std::vector<AnatomyBranch> branches;  ///< parents before their children
   std::vector<Bulge> bulges;
+  std::vector<Landmark> landmarks;
   std::uint64_t content_hash = 0;     ///< hash of the file's bytes
   std::vector<std::string> warnings;  ///< unusual values, each with file, key and likely unit
 };

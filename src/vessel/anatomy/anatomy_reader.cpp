@@ -88,14 +88,15 @@ Stenosis readStenosis(yaml::Fields& fields, double unit)
   return stenosis;
 }
 
-int indexOf(const Anatomy& anatomy, yaml::Fields& fields, const std::string& key)
+/** Index of the branch that a key names. @param otherwise remedy where there is none */
+int indexOf(const Anatomy& anatomy, yaml::Fields& fields, const std::string& key, const std::string& otherwise)
 {
   std::string name;
   fields.text(key, name, yaml::Need::kRequired);
   const auto found = std::find_if(anatomy.branches.begin(), anatomy.branches.end(),
                                   [&name](const AnatomyBranch& branch) { return branch.name == name; });
   if (found == anatomy.branches.end())
-    fields.reject(key, "no earlier branch \"" + name + "\"; a parent must precede its children");
+    fields.reject(key, "no earlier branch \"" + name + "\"; " + otherwise);
   return static_cast<int>(found - anatomy.branches.begin());
 }
 
@@ -117,7 +118,8 @@ void readParent(yaml::Fields& fields, const Anatomy& anatomy, AnatomyBranch& bra
   if (branch.continues && has_parent)
     fields.reject("continues", "excludes parent; keep one of the two");
   if (branch.continues || has_parent)
-    branch.parent = indexOf(anatomy, fields, branch.continues ? "continues" : "parent");
+    branch.parent =
+        indexOf(anatomy, fields, branch.continues ? "continues" : "parent", "a parent must precede its children");
   else if (!anatomy.branches.empty())
     fields.reject("parent", "missing; only the first branch has no parent");
   for (const AnatomyBranch& other : anatomy.branches)
@@ -156,6 +158,17 @@ Bulge readBulge(yaml::Fields& fields, double unit, double blend)
   return bulge;
 }
 
+Landmark readLandmark(yaml::Fields& fields, const Anatomy& anatomy)
+{
+  Landmark landmark;
+  fields.text("name", landmark.name, yaml::Need::kRequired);
+  landmark.origin = indexOf(anatomy, fields, "origin", "name one of branches");
+  landmark.branch = indexOf(anatomy, fields, "branch", "name one of branches");
+  fields.number("position", landmark.position, quantities::kNumber, yaml::Range::between(0.0, 1.0),
+                yaml::Need::kRequired);
+  return landmark;
+}
+
 void readAnatomy(yaml::Fields& fields, Anatomy& anatomy)
 {
   fields.text("name", anatomy.name, yaml::Need::kRequired);
@@ -173,6 +186,9 @@ void readAnatomy(yaml::Fields& fields, Anatomy& anatomy)
   fields.list("bulges", 0, ignore_size,
               [&](yaml::Fields& bulge, std::size_t)
               { anatomy.bulges.push_back(readBulge(bulge, unit, anatomy.blend)); });
+  fields.list("landmarks", 0, ignore_size,
+              [&](yaml::Fields& landmark, std::size_t)
+              { anatomy.landmarks.push_back(readLandmark(landmark, anatomy)); });
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ FlowObstacle sampledObstacle(const FlowCell& cell, const CellPlace& place, const
       if (span.branch == place.branch && arc >= span.begin && arc <= span.end)
         radius = std::max(radius, span.radius);
     const double free = lumen - M_PI * radius * radius;
-    if (free <= 0.02 * healthy)
+    if (free <= (radius > 0.0 ? 0.02 : 1e-3) * healthy)
       return {std::numeric_limits<double>::infinity(), 0.0, 0.0};
     narrowest = std::min(narrowest, free);
     const double ratio = radius / std::sqrt(lumen / M_PI);

@@ -191,6 +191,92 @@ TEST(FlowNetwork, ConservesBlood)
   EXPECT_LT(std::abs(initial + network.entered() - network.left() - network.totalVolume()), 1e-10 * stroke);
 }
 
+TEST(FlowNetwork, ConservesBloodWithASource)
+{
+  FlowSettings settings;
+  settings.reference_pressure = 1e4;
+  FlowNetwork network(body(settings), settings, 1e4);
+  const double initial = network.totalVolume();
+  constexpr double kSource = 6e-6;  // [m³/s]
+  for (int k = 1; k <= 8500; ++k)
+  {
+    network.setSource(40, k > 2000 && k <= 5000 ? kSource : 0.0);
+    network.step(beat(k * 1e-3), {500.0, 500.0, 500.0});
+  }
+  EXPECT_NEAR(network.injected(), 3.0 * kSource, 1e-12 * kSource);
+  EXPECT_LT(std::abs(initial + network.entered() + network.injected() - network.left() - network.totalVolume()),
+            1e-10 * network.entered());
+}
+
+TEST(FlowNetwork, ASourceFlowsToBothSidesOfItsNode)
+{
+  FlowSettings settings;
+  FlowTree tree;
+  const int end = append(tree, 0, {0.1, 2e-3, 50.0, 2.0, 1.0}, 20, settings.density);
+  tree.outlets.push_back({end, 1e8, 1e9, 1e-12});
+  FlowNetwork network(tree, settings, 0.0);
+  constexpr double kFlow = 2e-6, kSource = 5e-6;
+  network.setSource(10, kSource);
+  for (int k = 0; k < 20000; ++k)
+    network.step(kFlow - kSource, {0.0});  // with reflux, as the pump has the larger flow
+  EXPECT_NEAR(network.flow(5), kFlow - kSource, 1e-6 * kFlow);
+  EXPECT_NEAR(network.flow(15), kFlow, 1e-6 * kFlow);
+  EXPECT_NEAR(network.outflow(0), kFlow, 1e-6 * kFlow);
+}
+
+TEST(FlowNetwork, ThePressureDropFollowsTheViscosityOfACell)
+{
+  FlowSettings settings;
+  FlowTree tree;
+  const int end = append(tree, 0, {0.1, 2e-3, 300.0, 2.0, 1.0}, 20, settings.density);
+  tree.outlets.push_back({end, 1e8, 1e9, 1e-12});
+  FlowNetwork network(tree, settings, 0.0);
+  constexpr double kFlow = 5e-6;
+  const auto drop = [&]
+  {
+    for (int k = 0; k < 20000; ++k)
+      network.step(kFlow, {0.0});
+    return network.pressure(10) - network.pressure(11);
+  };
+  const double of_blood = drop();
+  network.setViscosityFactor(10, 2.6);
+  EXPECT_NEAR(drop() / of_blood, 2.6, 1e-4);
+  network.setViscosityFactor(10, 1.0);
+  EXPECT_NEAR(drop() / of_blood, 1.0, 1e-4);
+}
+
+TEST(FlowNetwork, HasTheBitsOfBloodAloneWithoutSourcesAndWithItsOwnViscosity)
+{
+  FlowSettings settings;
+  settings.reference_pressure = 1e4;
+  FlowNetwork plain(body(settings), settings, 1e4), with(body(settings), settings, 1e4);
+  with.setObstacle(30, {0.0, 3e8, 1e13});
+  plain.setObstacle(30, {0.0, 3e8, 1e13});
+  with.setSource(7, 1e-6);
+  with.setSource(7, 0.0);
+  for (int k = 1; k <= 1000; ++k)
+  {
+    for (std::size_t cell = 0; cell < with.tree().cells.size(); ++cell)
+      with.setViscosityFactor(cell, 1.0);
+    plain.step(beat(k * 1e-3), {500.0, 500.0, 500.0});
+    with.step(beat(k * 1e-3), {500.0, 500.0, 500.0});
+  }
+  Archive of_plain, of_with;
+  plain.archive(of_plain);
+  with.archive(of_with);
+  EXPECT_EQ(of_plain.bytes(), of_with.bytes());
+}
+
+TEST(FlowNetwork, RefusesSourcesAndViscositiesThatAreNotPossible)
+{
+  FlowSettings settings;
+  FlowNetwork network(body(settings), settings, 1e4);
+  EXPECT_THROW(network.setSource(1000, 1e-6), std::invalid_argument);
+  EXPECT_THROW(network.setSource(1, std::nan("")), std::invalid_argument);
+  EXPECT_THROW(network.setViscosityFactor(1, 0.0), std::invalid_argument);
+  EXPECT_THROW(network.setViscosityFactor(1, std::nan("")), std::invalid_argument);
+}
+
 TEST(FlowNetwork, GivesTheSamePressuresForEveryTimeStep)
 {
   double reference = 0.0;

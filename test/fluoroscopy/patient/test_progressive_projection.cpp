@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/error.h"
+#include "fluoroscopy/motion/phase_grid.h"
 #include "test/fluoroscopy/motion_fixtures.h"
 
 namespace endovascular_sim::fluoroscopy
@@ -39,11 +40,11 @@ TEST(ProgressiveProjection, IsCoarseAfterAMovementAndFinalAfterAFixedNumberOfFra
   for (int frame = 0; frame < 4; ++frame)
   {
     EXPECT_EQ(progressive.frame(geometry).tissue, coarse.tissue) << frame;
-    EXPECT_FALSE(progressive.isFinal());
+    EXPECT_FALSE(progressive.isComplete());
     EXPECT_EQ(progressive.revision(), 1);
   }
   EXPECT_EQ(progressive.frame(geometry).tissue, fine.tissue);
-  EXPECT_TRUE(progressive.isFinal());
+  EXPECT_TRUE(progressive.isComplete());
   EXPECT_EQ(progressive.revision(), 2);
   EXPECT_EQ(progressive.frame(geometry).bone, fine.bone);
   EXPECT_EQ(progressive.revision(), 2);
@@ -71,7 +72,7 @@ TEST(ProgressiveProjection, IsFinalInItsFirstFrameWhereNothingIsToBeRefined)
   ProgressiveProjection still(projection, {32, 32, 1 << 20}), other(projection, {16, 32, 1 << 20});
   const XRayGeometry geometry(pose(0.3));
   const ArealDensityImage first = still.frame(geometry);
-  EXPECT_TRUE(still.isFinal());
+  EXPECT_TRUE(still.isComplete());
   still.frame(geometry);
   EXPECT_EQ(still.revision(), 1);  // the image is kept
   other.frame(geometry);
@@ -115,18 +116,56 @@ TEST(ProgressiveProjection, AddsTheChangeOfTheMotionAtTheFirstResolution)
   EXPECT_EQ(moving.revision(), before + 1);
 }
 
-TEST(ProgressiveProjection, TakesTheChangeOfAnEarlierPhaseWithinItsTolerance)
+TEST(ProgressiveProjection, CompletesTheImageAtOnceOnRequest)
+{
+  const patient::DensityVolume volume = ball();
+  ProgressiveProjection progressive(volume, {16, 32, 256}), still(volume, {32, 32, 256});
+  const XRayGeometry geometry(pose(0.3));
+  const ArealDensityImage fine = resampled(VolumeProjection(volume).project(geometry, 32), 64);
+  progressive.complete(geometry);  // before the first frame
+  EXPECT_EQ(progressive.frame(geometry).tissue, fine.tissue);
+  EXPECT_TRUE(progressive.isComplete());
+  EXPECT_EQ(progressive.revision(), 1);
+  const XRayGeometry other(pose(0.4));
+  progressive.frame(other);
+  progressive.frame(other);
+  progressive.complete(other);  // half way
+  EXPECT_EQ(progressive.frame(other).tissue, resampled(VolumeProjection(volume).project(other, 32), 64).tissue);
+  still.complete(geometry);
+  EXPECT_EQ(still.frame(geometry).tissue, fine.tissue);
+}
+
+TEST(ProgressiveProjection, DoesNotDependOnTheFramesBefore)
+{
+  const auto projection = std::make_shared<const VolumeProjection>(smoothBody(80, 3e-3));
+  const PhaseGrid grid({motion::naturalHeart(), motion::adultMotion()});
+  ProgressiveProjection whole(projection, {32, 32, 1 << 20}), sparse(projection, {32, 32, 1 << 20});
+  const XRayGeometry geometry(heartView(0.2, 0.1, 64));
+  for (int frame = 0; frame < 30; ++frame)
+  {
+    const BodyMotion motion = grid.nearest(motionAt(std::fmod(frame * 0.0789, 1.0), std::fmod(frame * 0.0164, 1.0)));
+    whole.setMotion(motion);
+    const std::vector<float> tissue = whole.frame(geometry).tissue;
+    if (frame % 3 != 0)
+      continue;
+    sparse.setMotion(motion);
+    ASSERT_EQ(sparse.frame(geometry).tissue, tissue) << frame;
+  }
+}
+
+TEST(ProgressiveProjection, TakesTheChangeOfAnEarlierFrameAtTheSamePhase)
 {
   const auto projection = std::make_shared<const VolumeProjection>(smoothBody(100, 2.5e-3));
+  const PhaseGrid grid({motion::naturalHeart(), motion::adultMotion()});
   ProgressiveProjection moving(projection, {64, 64, 1 << 20});
   const XRayGeometry geometry(heartView(0.2, 0.1, 64));
   MovedTissue tissue(*projection, motion::naturalHeart());
   const std::vector<float> still = projection->project(geometry, 64).tissue;
   double error = 0.0, change = 0.0;
-  for (int frame = 0; frame < 120; ++frame)  // eight seconds
+  for (int frame = 0; frame < 240; ++frame)  // sixteen seconds; heart and breath repeat after twelve
   {
     const BodyMotion motion = motionAt(std::fmod(frame / 15.0 * 70.0 / 60.0, 1.0), std::fmod(frame / 60.0, 1.0));
-    moving.setMotion(motion);
+    moving.setMotion(grid.nearest(motion));
     std::vector<float> wanted = still;
     if (!motion.resting())
       addResampled(tissue.change(geometry, 64, motion, MotionSampling::kExact), 64, 64, wanted);

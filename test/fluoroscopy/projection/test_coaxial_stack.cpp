@@ -128,12 +128,36 @@ TEST(CoaxialStack, UsesTheLocalFluidOfEachEdge)
   EXPECT_EQ(at(wire, 8.5e-3)[0].density, response().solid("steel") - kAround);
 }
 
+TEST(CoaxialStack, FillsTheLumenOfEachInstrumentWithItsOwnFluid)
+{
+  using M = instrument::Material;
+  instrument::Instrument guide = tube({1.0}, {2e-3}, {M::kPolymer}), catheter = tube({1.0}, {1e-3}, {M::kPolymer});
+  guide.inner_radius = 1.5e-3;
+  catheter.inner_radius = 0.6e-3;
+  const std::vector<XRayInstrument> instruments = {XRayInstrument(tube({1.0}, {0.2e-3}, {M::kSteel}), response()),
+                                                   XRayInstrument(catheter, response()),
+                                                   XRayInstrument(guide, response())};
+  const std::vector<DeviceDensity> lumens = {{0.0, 0.0}, {700.0, 1000.0}, {20.0, 1000.0}};
+  const XRayWire wire = coaxialStack(centreline(), instruments, {0.0, 10e-3, 20e-3}, {{kAround, kLumen}}, lumens);
+  const DeviceDensity polymer = response().solid("polymer");
+  const WireProfile& all = at(wire, 10.5e-3);
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all[0].density, response().solid("steel") - lumens[1]) << "wire in the catheter";
+  EXPECT_EQ(all[1].density, polymer - lumens[2]) << "catheter in the guiding catheter";
+  EXPECT_EQ(all[2].density, lumens[1] - polymer);
+  EXPECT_EQ(all[3].density, polymer - kAround);
+  EXPECT_EQ(all[4].density, lumens[2] - polymer);
+  EXPECT_EQ(at(wire, 25.5e-3)[1].density, polymer - kAround) << "catheter beyond the guiding catheter";
+  EXPECT_EQ(at(wire, 35.5e-3)[0].density, response().solid("steel") - kAround) << "wire beyond both";
+}
+
 TEST(CoaxialStack, RejectsListsOfInconsistentLength)
 {
   const std::vector<XRayInstrument> none;
   EXPECT_THROW(coaxialStack(centreline(), none, {0.0}, {{kAround, kLumen}}), InputError);
   EXPECT_THROW(coaxialStack(centreline(), none, {}, {}), InputError);
   EXPECT_THROW(coaxialStack(centreline(), none, {}, std::vector<LocalFluids>(3)), InputError);
+  EXPECT_THROW(coaxialStack(centreline(), none, {}, {{kAround, kLumen}}, {kLumen}), InputError);
 }
 
 TEST(XRayInstrument, RequiresAMaterialForEverySection)

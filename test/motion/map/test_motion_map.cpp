@@ -228,6 +228,7 @@ TEST(MotionMap, PushesPlanesForwardWithTheirNormalsAndGaps)
       const MotionMap::Feature feature = map.pushForward(point, normal);
       EXPECT_EQ(feature.point, map.position(point));
       EXPECT_NEAR(feature.normal.norm(), 1.0, 1e-14);
+      EXPECT_LT((map.restingNormal(point, feature.normal) - normal).norm(), 1e-14);
       const Vector3d along = normal.unitOrthogonal();
       for (const Vector3d& tangent : {along, Vector3d(normal.cross(along))})
         EXPECT_NEAR(feature.normal.dot(map.gradient(point) * tangent), 0.0, 1e-14);

@@ -22,6 +22,7 @@ flow::FlowRequest request()
   request.lumens = {{2, {0.01, 0.02, 0.03}, {1e-6, 0.3e-6, 1.0 / 3.0 * 1e-6}}, {0, {}, {}}};
   request.instruments = {{1, 0.0, 0.1, 0.35e-3}, {2, 0.01, 1.0 / 3.0, 0.9e-3}};
   request.probes = {{1, 0.05}, {-1, 0.0}};
+  request.injection = {2e-8 / 3.0, 350.0, 10.4e-3, {{{1, 0.05 / 3.0}, 1.0}, {{-1, 0.0}, 1.0 / 3.0}}};
   request.state = std::string("\0\x01\xff state", 9);
   return request;
 }
@@ -39,6 +40,8 @@ flow::FlowAnswer answer()
   answer.field.probes = {12e3, 0.0};
   answer.field.readings = {11.9e3};
   answer.field.means = {12.1e3, {12.0e3}, {9e3}, true};
+  answer.field.iodine = {0.0, 350.0 / 3.0};
+  answer.field.totals = {3e-3 / 7.0, 2e-3 / 7.0, 1e-3 / 7.0};
   answer.state = std::string("\0\x02", 2);
   return answer;
 }
@@ -76,6 +79,14 @@ TEST(FlowConversions, RequestsKeepTheirBits)
   EXPECT_EQ(after.probes[0].branch, 1);
   EXPECT_EQ(after.probes[0].arc, before.probes[0].arc);
   EXPECT_EQ(after.probes[1].branch, -1);
+  EXPECT_EQ(after.injection.volume, before.injection.volume);
+  EXPECT_EQ(after.injection.concentration, before.injection.concentration);
+  EXPECT_EQ(after.injection.viscosity, before.injection.viscosity);
+  ASSERT_EQ(after.injection.openings.size(), 2U);
+  EXPECT_EQ(after.injection.openings[0].place.branch, 1);
+  EXPECT_EQ(after.injection.openings[0].place.arc, before.injection.openings[0].place.arc);
+  EXPECT_EQ(after.injection.openings[1].place.branch, -1);
+  EXPECT_EQ(after.injection.openings[1].share, before.injection.openings[1].share);
   EXPECT_EQ(after.state, before.state);
 }
 
@@ -99,6 +110,10 @@ TEST(FlowConversions, AnswersKeepTheirBits)
   EXPECT_EQ(after.field.means.readings, before.field.means.readings);
   EXPECT_EQ(after.field.means.lesions, before.field.means.lesions);
   EXPECT_EQ(after.field.means.hyperaemia, before.field.means.hyperaemia);
+  EXPECT_EQ(after.field.iodine, before.field.iodine);
+  EXPECT_EQ(after.field.totals.injected, before.field.totals.injected);
+  EXPECT_EQ(after.field.totals.inside, before.field.totals.inside);
+  EXPECT_EQ(after.field.totals.left, before.field.totals.left);
   EXPECT_EQ(after.state, before.state);
 }
 
@@ -133,6 +148,13 @@ TEST(FlowConversions, ImpossibleRequestsAreRefused)
   isRefused([](FlowRequest& message) { message.instruments[0].radius = kNaN; });
   isRefused([](FlowRequest& message) { message.probes[0].branch = kBranches; });
   isRefused([](FlowRequest& message) { message.probes[0].arc = kNaN; });
+  isRefused([](FlowRequest& message) { message.injected_volume = kNaN; });
+  isRefused([](FlowRequest& message) { message.injected_volume = -1e-9; });
+  isRefused([](FlowRequest& message) { message.injected_viscosity = std::numeric_limits<double>::infinity(); });
+  isRefused([](FlowRequest& message) { message.openings[0].branch = kBranches; });
+  isRefused([](FlowRequest& message) { message.openings.pop_back(); });
+  isRefused([](FlowRequest& message) { message.opening_shares[0] = 0.0; });
+  isRefused([](FlowRequest& message) { message.opening_shares[0] = kNaN; });
 }
 
 TEST(FlowConversions, AnswersWithNumbersThatAreNotFiniteAreRefused)
@@ -150,6 +172,8 @@ TEST(FlowConversions, AnswersWithNumbersThatAreNotFiniteAreRefused)
   isRefused([](FlowAnswer& message) { message.pressure[1] = kInfinite; });
   isRefused([](FlowAnswer& message) { message.flow[0] = kInfinite; });
   isRefused([](FlowAnswer& message) { message.readings[0] = kInfinite; });
+  isRefused([](FlowAnswer& message) { message.iodine[0] = kInfinite; });
+  isRefused([](FlowAnswer& message) { message.iodine_left = kInfinite; });
 }
 
 }  // namespace

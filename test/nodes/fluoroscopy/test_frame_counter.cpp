@@ -7,24 +7,35 @@ namespace endovascular_sim::nodes
 namespace
 {
 
-TEST(FrameCounter, CountsTheFramesThatAreLeftOut)
+TEST(FrameCounter, CountsThePulsesThatAreLeftOut)
 {
-  FrameCounter counter(0.1);
-  for (const double time : {10.0, 10.1, 10.2, 10.51, 10.6, 10.86})
-    counter.draw(time);
+  FrameCounter counter;
+  for (const std::uint64_t pulse : {10, 11, 12, 15, 16, 19})
+    counter.draw(pulse);
   EXPECT_EQ(counter.drawn(), 6U);
-  EXPECT_EQ(counter.leftOut(), 4U);  // two before the one at 10.51, two before that at 10.86
+  EXPECT_EQ(counter.leftOut(), 4U);  // 13 and 14, 17 and 18
 }
 
-TEST(FrameCounter, CountsNoFramesWhileNobodySeesThem)
+TEST(FrameCounter, CountsAPulseThatIsDrawnAgainOnce)
 {
-  FrameCounter counter(0.1);
-  counter.draw(10.0);
-  counter.pause();
-  counter.draw(60.0);
-  counter.draw(60.1);
+  FrameCounter counter;
+  for (const std::uint64_t pulse : {1, 1, 1, 2})
+    counter.draw(pulse);
+  EXPECT_EQ(counter.drawn(), 2U);
   EXPECT_EQ(counter.leftOut(), 0U);
-  EXPECT_EQ(counter.drawn(), 3U);
+}
+
+TEST(FrameCounter, CountsNoPulsesWhileNobodySeesThemAndAfterAStepBack)
+{
+  FrameCounter counter;
+  counter.draw(10);
+  counter.pause();
+  counter.draw(600);
+  counter.draw(601);
+  counter.draw(5);
+  counter.draw(6);
+  EXPECT_EQ(counter.leftOut(), 0U);
+  EXPECT_EQ(counter.drawn(), 5U);
 }
 
 }  // namespace

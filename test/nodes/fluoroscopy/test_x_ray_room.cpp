@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fluoroscopy/projection/x_ray_treatment.h"
 #include "scene/scene_file.h"
 #include "scene/scene_vessel.h"
 #include "test/fluoroscopy/motion_fixtures.h"
@@ -33,7 +32,7 @@ TEST(XRayRoom, PlacesThePatientWithTheMiddleOfTheVesselAtTheIsocentre)
   room.setVessel(std::move(mesh));
   EXPECT_FALSE(room.awaitsVessel());
   EXPECT_LT((room.geometry().pose().isocentre - box.center()).norm(), 1e-12);
-  EXPECT_EQ(room.render(false).pixels, 32);
+  EXPECT_EQ(room.draw(0, false).native.pixels, 32);
 }
 
 TEST(XRayRoom, KeepsTheIsocentreOfACommandWhenTheVesselArrives)
@@ -49,33 +48,30 @@ TEST(XRayRoom, KeepsTheIsocentreOfACommandWhenTheVesselArrives)
   EXPECT_LT((room.gantry().pose().isocentre - target.isocentre).norm(), 1e-12);
 }
 
-TEST(XRayRoom, DrawsTheVesselInTheMotionOfTheStepOfTheInstruments)
+TEST(XRayRoom, DrawsVesselAndBalloonInTheMotionOfTheState)
 {
   const scene::Scene scene =
       scene::loadScene(PROJECT_DIR "/config/scenes/tube.yaml", {"fluoroscopy={pixels: 64, follow_tip: false}"});
   const Eigen::Vector3d centre = motion::naturalHeart().fade.centre;
   const geometry::TriangleMesh mesh = fluoroscopy::sphere(centre, 0.03, 20, 30);
   const std::vector<Eigen::Vector3d> balloon = {centre, centre + Eigen::Vector3d(0.02, 0.0, 0.0)};
-  XRayRoom room(scene, library()), wanted(scene, library());
-  for (XRayRoom* each : {&room, &wanted})
-  {
-    each->setVessel(mesh);
-    each->setTreatment({fluoroscopy::balloonWire(balloon, {2e-3, 2e-3}, each->system().filling())});
-  }
-  const std::vector<std::uint16_t> at_rest = wanted.render(false).raw;
-  wanted.setMotion(7, fluoroscopy::motionAt(0.3, 0.2));
-  const std::vector<std::uint16_t> moved = wanted.render(false).raw;
-  EXPECT_NE(at_rest, moved);
-
-  EXPECT_EQ(room.render(false).raw, at_rest);  // without motion, as always
-  room.setMotion(6, fluoroscopy::motionAt(0.1, 0.2));
-  room.setMotion(7, fluoroscopy::motionAt(0.3, 0.2));
-  room.setMotion(8, fluoroscopy::motionAt(0.5, 0.2));
-  room.setWires({}, {}, 7);
-  EXPECT_EQ(room.render(false).raw, moved);
-  room.setWires({}, {}, 8);
-  room.setMotion(9, fluoroscopy::BodyMotion());
-  EXPECT_NE(room.render(false).raw, moved);
+  XRayRoom room(scene, library());
+  room.setVessel(mesh);
+  const std::vector<std::uint16_t> vessel_alone = room.draw(3, false).native.raw;
+  ImagedState state;
+  state.treatment.emplace().balloons = {{balloon, {2e-3, 2e-3}}};
+  room.setState(state);
+  const std::vector<std::uint16_t> at_rest = room.draw(3, false).native.raw;
+  EXPECT_NE(at_rest, vessel_alone);
+  state.motion = fluoroscopy::motionAt(0.3, 0.2);
+  room.setState(state);
+  const std::vector<std::uint16_t> moved = room.draw(3, false).native.raw;
+  EXPECT_NE(moved, at_rest);
+  room.setState({});
+  room.draw(4, false);
+  room.setState(state);
+  EXPECT_EQ(room.draw(3, false).native.raw, moved);  // whatever was drawn before
+  EXPECT_NE(room.draw(4, false).native.raw, moved);  // the noise is that of the pulse
 }
 
 }  // namespace

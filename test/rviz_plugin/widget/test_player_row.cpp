@@ -40,6 +40,7 @@ public:
   void alignExpert(std::uint8_t /*alignment*/) override {}
   void setBlood(const BloodRequest& /*request*/) override { is_driven = true; }
   void setMotion(const MotionRequest& /*request*/) override { is_driven = true; }
+  void inject(const ContrastRequest& /*request*/) override { is_driven = true; }
   void controlPlayer(std::uint8_t command, double value) override { played.emplace_back(command, value); }
 
   SessionState present;

@@ -43,6 +43,7 @@ public:
   void alignExpert(std::uint8_t alignment) override { alignments.push_back(alignment); }
   void setBlood(const BloodRequest& request) override { bloods.push_back(request); }
   void setMotion(const MotionRequest& request) override { motions.push_back(request); }
+  void inject(const ContrastRequest& request) override { injections.push_back(request); }
   void controlPlayer(std::uint8_t command, double value) override { played.emplace_back(command, value); }
 
   HandVelocity lastHeld() const { return held.empty() ? HandVelocity{} : held.back(); }
@@ -57,6 +58,7 @@ public:
   std::vector<int> alignments;
   std::vector<BloodRequest> bloods;
   std::vector<MotionRequest> motions;
+  std::vector<ContrastRequest> injections;
   int confirmed = 0;
 };
 
@@ -613,6 +615,64 @@ TEST_F(SessionWidgetTest, HoldsTheBreathAndChangesTheRates)
   QTest::keyClick(breaths, Qt::Key_Return);
   ASSERT_EQ(session.motions.size(), 3U);
   EXPECT_NEAR(session.motions[2].breathing_rate, 0.2, 1e-12);
+}
+
+TEST_F(SessionWidgetTest, ShowsContrastMediumWhereASceneHasItOnly)
+{
+  EXPECT_FALSE(child<QPushButton>("puff")->isVisible());
+  session.present.contrast = ContrastStatus{0.0, 0.0, 9e-6, 3.04e-6};
+  widget->refresh();
+  EXPECT_TRUE(child<QPushButton>("puff")->isVisible());
+  EXPECT_EQ(child<QLabel>("contrast")->text(), "Syringe 9.0 ml, used 3.0 ml");
+  EXPECT_FALSE(child<QPushButton>("stop_injection")->isEnabled());
+  EXPECT_EQ(child<QSpinBox>("contrast_volume")->maximum(), 12);
+  EXPECT_EQ(child<QSpinBox>("contrast_rate")->maximum(), 10);
+  session.present.scene.syringe = contrast::kPumpSyringe;
+  widget->refresh();
+  EXPECT_EQ(child<QSpinBox>("contrast_volume")->maximum(), 150);
+  EXPECT_EQ(child<QSpinBox>("contrast_rate")->maximum(), 40);
+}
+
+TEST_F(SessionWidgetTest, KeepsItsWidthWithContrastMedium)
+{
+  const int width = widget->sizeHint().width(), least = widget->minimumSizeHint().width();
+  session.present.contrast = ContrastStatus{9e-6, 100e-6, 140e-6, 260e-6};
+  session.present.scene.syringe = contrast::kPumpSyringe;
+  widget->refresh();
+  EXPECT_EQ(widget->sizeHint().width(), width);
+  EXPECT_EQ(widget->minimumSizeHint().width(), least);
+}
+
+TEST_F(SessionWidgetTest, InjectsStopsAndRefills)
+{
+  session.present.contrast = ContrastStatus{3e-6, 1e-6, 9e-6, 3e-6};
+  widget->refresh();
+  auto* volume = child<QSpinBox>("contrast_volume");
+  volume->setFocus();
+  volume->setValue(8);
+  QTest::keyClick(volume, Qt::Key_Return);
+  EXPECT_TRUE(widget->hasFocus());
+  EXPECT_TRUE(session.injections.empty()) << "a number alone injects nothing";
+  for (const char* name : {"puff", "inject", "stop_injection", "refill_syringe"})
+    QTest::mouseClick(child<QPushButton>(name), Qt::LeftButton);
+  ASSERT_EQ(session.injections.size(), 4U);
+  EXPECT_DOUBLE_EQ(session.injections[0].volume, 3e-6);
+  EXPECT_DOUBLE_EQ(session.injections[0].rate, 3e-6);
+  EXPECT_DOUBLE_EQ(session.injections[1].volume, 8e-6);
+  EXPECT_DOUBLE_EQ(session.injections[1].rate, 4e-6);
+  EXPECT_EQ(session.injections[2].volume, 0.0);
+  EXPECT_FALSE(session.injections[2].refill);
+  EXPECT_EQ(session.injections[3].volume, 0.0);
+  EXPECT_TRUE(session.injections[3].refill);
+}
+
+TEST_F(SessionWidgetTest, InjectsNothingWhileARecordingIsPlayed)
+{
+  session.present.contrast = ContrastStatus{3e-6, 1e-6, 9e-6, 3e-6};
+  session.present.player = PlayerState();
+  widget->refresh();
+  for (const char* name : {"puff", "inject", "stop_injection", "refill_syringe"})
+    EXPECT_FALSE(child<QPushButton>(name)->isEnabled()) << name;
 }
 
 TEST_F(SessionWidgetTest, LetsTheBreathGo)

@@ -83,7 +83,7 @@ TEST(SceneProcedure, ReportsErrorsWithFileKeyAndRemedy)
 {
   EXPECT_EQ(refusalOf("{push: wire}"),
             "scene.yaml: procedure.steps.0 (line 7): has no action; give one of advance, withdraw, rotate, inflate, "
-            "exchange, wait");
+            "exchange, wait, inject");
   EXPECT_NE(refusalOf("{advance: wire, rotate: wire, until: {by: 1}}").find("procedure.steps.0.rotate"),
             std::string::npos);
   EXPECT_NE(refusalOf("{advance: wire, until: {tip_inn: tube}}").find("tip_in"), std::string::npos);
@@ -112,7 +112,8 @@ TEST(SceneProcedure, IsRequiredByADriveWithSourceProcedure)
 
 TEST(SceneProcedure, OfALessonHasHintsAndPassMarksAndAPersonWhoDrives)
 {
-  for (const char* name : {"lesson_bifurcation", "lesson_catheter_needs_wire", "lesson_lad_stent", "lesson_pressure"})
+  for (const char* name :
+       {"lesson_bifurcation", "lesson_catheter_needs_wire", "lesson_lad_stent", "lesson_pressure", "lesson_injection"})
   {
     const Scene scene = loadScene(std::string(PROJECT_DIR "/config/scenes/") + name + ".yaml");
     ASSERT_TRUE(scene.procedure.has_value()) << name;

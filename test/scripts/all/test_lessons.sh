@@ -6,7 +6,7 @@ set -eu
 . "$(dirname "$0")/../folder_of_a_test.sh"
 [ -e "${ENDOVASCULAR_DEVEL:-$repository/catkin_ws/devel}/lib/libendovascular_sim_rviz.so" ] || { echo "skipped: the plugin of rviz is not built"; exit 77; }
 . "$repository/test/scripts/graph_environment.sh"
-[ $# -gt 0 ] || set -- lesson_bifurcation lesson_catheter_needs_wire lesson_lad_stent lesson_pressure
+[ $# -gt 0 ] || set -- lesson_bifurcation lesson_catheter_needs_wire lesson_lad_stent lesson_pressure lesson_injection
 
 for lesson in "$@"; do
   mkdir "$folder/$lesson"

@@ -10,6 +10,7 @@
 #include "results/run_result.h"
 #include "scene/scene_file.h"
 #include "simulation/degraded/force_fault_limiter.h"
+#include "simulation/instrument_tip.h"
 #include "simulation/simulation.h"
 
 // Late, duplicate, missing and invalid contact sets, injected between the detector and the solver.
@@ -176,7 +177,7 @@ struct Bench
 
   void expectInside() const
   {
-    for (int i = results::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
+    for (int i = simulation::firstInsertedNode(simulation); i < simulation.discretisation().nodes(); ++i)
       ASSERT_GT(detector.signedDistance(simulation.state().position[i]), 0.0)
           << "node " << i << ", step " << simulation.steps();
   }

@@ -95,6 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
                "a whole number between 8 and 64"},
         Change{"hard_bulge", "radius: 4", "radius: 4\n    blend: 0", "bulges[sinus].blend",
                "must be between 0.05 and 3"},
+        Change{"landmark_nowhere", "bulges:",
+               "landmarks: [{name: end, origin: trunk, branch: top, position: 1}]\nbulges:", "landmarks[end].branch",
+               "name one of branches"},
+        Change{"landmark_off_the_branch", "bulges:",
+               "landmarks: [{name: end, origin: trunk, branch: left, position: 2}]\nbulges:", "landmarks[end].position",
+               "must be between 0 and 1"},
         Change{"begins_outside", "[0, 0, 49], [-12", "[9, 0, 49], [-12", "branches[right].points",
                "must lie inside the parent"},
         Change{"too_tight", "[-12, 0, 66], [-20, 5, 90]", "[-12, 0, 66], [-10, 1, 64], [-12, 2, 62]",
@@ -151,6 +157,17 @@ TEST(Anatomy, HasItsEndsAtTheRootAndTheTips)
   EXPECT_GT(ends[0].inward.z(), 0.9);
   EXPECT_LT(ends[1].inward.x(), -0.5);
   EXPECT_NEAR(ends[2].inward.norm(), 1.0, 1e-12);
+}
+
+TEST(AnatomyFile, NamesTheLandmarksOfFrameCounts)
+{
+  const Anatomy anatomy = readAnatomy(PROJECT_DIR "/config/anatomies/natural.yaml");
+  ASSERT_EQ(anatomy.landmarks.size(), 3U);
+  const Landmark& landmark = anatomy.landmarks[2];
+  EXPECT_EQ(landmark.name, "RCA");
+  EXPECT_EQ(anatomy.branches[static_cast<std::size_t>(landmark.origin)].name, "right_coronary");
+  EXPECT_EQ(anatomy.branches[static_cast<std::size_t>(landmark.branch)].name, "posterolateral");
+  EXPECT_EQ(landmark.position, 0.25);
 }
 
 TEST(AnatomyFile, TakesFacetsOfABranchAndTheBlendingOfABulge)

@@ -71,6 +71,8 @@ SimulationServices::SimulationServices(const ros::NodeHandle& node, Operations o
       [this](GoToStep::Request& request, GoToStep::Response& response)
   { return answer(names::kGoToStep, response, [&] { return operations_.go_to_step(request.step); }); };
   servers_.push_back(node_.advertiseService(names::kGoToStep, go_to_step));
+  if (operations_.inject)
+    addInjections();
   file_spinner_.start();
 }
 
@@ -82,6 +84,14 @@ SimulationServices::~SimulationServices()
     tasks_.clear();
   }
   file_spinner_.stop();
+}
+
+void SimulationServices::addInjections()
+{
+  const boost::function<bool(InjectContrast::Request&, InjectContrast::Response&)> call =
+      [this](InjectContrast::Request& request, InjectContrast::Response& response)
+  { return answer(names::kInjectContrast, response, [&] { return operations_.inject(request); }); };
+  servers_.push_back(node_.advertiseService(names::kInjectContrast, call));
 }
 
 void SimulationServices::addTrigger(const char* name, const std::function<std::string()>& operation)

@@ -13,14 +13,15 @@
 #include <std_srvs/Trigger.h>
 
 #include "endovascular_sim/ContinueRecording.h"
+#include "endovascular_sim/InjectContrast.h"
 #include "endovascular_sim/StateFile.h"
 #include "endovascular_sim/StepSimulation.h"
 
 namespace endovascular_sim::nodes
 {
 
-/** Services below simulation/ and procedure/, executed in the thread of the simulation, between two steps. Files are
- * read and written in a thread of their own: steps do not wait for a disk. */
+/** Services below simulation/ and procedure/, and contrast/inject, executed in the thread of the simulation, between
+ * two steps. Files are read and written in a thread of their own: steps do not wait for a disk. */
 class SimulationServices
 {
 public:
@@ -37,6 +38,8 @@ public:
     std::function<void(const StepSimulation::Request&, StepSimulation::Response&)> step;
     /** Fills the response with the present state, from which a recording continues. */
     std::function<void(ContinueRecording::Response&)> continue_recording;
+    /** Begins or ends an injection of contrast medium; empty in a scene without: no service. */
+    std::function<std::string(const InjectContrast::Request&)> inject;
   };
 
   /** @param state_folder folder of all states; empty: any */
@@ -49,6 +52,7 @@ public:
   void serve(double seconds);
 
 private:
+  void addInjections();
   void addTrigger(const char* name, const std::function<std::string()>& operation);
   void addFile(const char* name, const std::function<std::string(const std::string&)>& operation);
   std::string inSimulation(std::packaged_task<std::string()> work);

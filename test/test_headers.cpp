@@ -1,0 +1,1 @@
+// Source of the library whose precompiled headers the tests share.
