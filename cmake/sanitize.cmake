@@ -7,7 +7,7 @@
 set(ENDOVASCULAR_SANITIZE OFF CACHE STRING "Sanitizers: OFF, address or thread")
 if(ENDOVASCULAR_SANITIZE)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    message(FATAL_ERROR "ENDOVASCULAR_SANITIZE needs clang: configure with -DCMAKE_CXX_COMPILER=clang++-14")
+    message(FATAL_ERROR "ENDOVASCULAR_SANITIZE needs clang: configure with -DCMAKE_CXX_COMPILER=clang++")
   endif()
   if(ENDOVASCULAR_SANITIZE STREQUAL "address")
     set(SANITIZERS address,undefined,float-cast-overflow)

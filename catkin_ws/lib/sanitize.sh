@@ -8,7 +8,7 @@ build_sanitized() {
   if command -v ccache > /dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   say "Building with the $sanitizer sanitizer, $(build_jobs) job(s); log: $log"
   {
-    cmake -S "$repository" -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++-14 \
+    cmake -S "$repository" -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
       -DENDOVASCULAR_SANITIZE="$sanitizer" -DCATKIN_ENABLE_TESTING=ON -DCATKIN_DEVEL_PREFIX="$folder/devel" \
       -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "${launcher[@]}" &&
       nice cmake --build "$folder" -j "$(build_jobs)" --target "$@"

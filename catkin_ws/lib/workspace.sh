@@ -53,18 +53,20 @@ install_packages() {
   if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$list_hash $system" ]; then
     return
   fi
-  command -v dpkg-query >/dev/null || die "dpkg-query is missing: this package is for Debian 12, whose archive holds ROS 1."
+  command -v dpkg-query >/dev/null || die "dpkg-query is missing: this package is for Debian 12 and 13, whose archives hold ROS 1."
 
   local missing
   mapfile -t missing < <(missing_packages "$list")
   if [ ${#missing[@]} -gt 0 ]; then
     local id='' version=''
     [ -r /etc/os-release ] && { id=$(. /etc/os-release; echo "${ID:-}"); version=$(. /etc/os-release; echo "${VERSION_ID:-}"); }
-    if [ "$id" != debian ] || [ "$version" != 12 ]; then
-      die "this is ${id:-an unknown system} ${version:-}, and ${#missing[@]} of the packages of catkin_ws/$list are missing.
-       They are installed from the archive of Debian 12 (bookworm), the release whose ROS 1 this package is built on.
-       Run this on Debian 12, or in a container of it (image debian:12)."
-    fi
+    case "$id $version" in
+      'debian 12'|'debian 13') ;;
+      *)
+        die "this is ${id:-an unknown system} ${version:-}, and ${#missing[@]} of the packages of catkin_ws/$list are missing.
+       They are installed from the archive of Debian 12 (bookworm) or 13 (trixie), which hold ROS 1.
+       Run this on one of them, or in a container (image debian:12, or debian:13)." ;;
+    esac
     local become=() install=(apt-get install -y --no-install-recommends "${missing[@]}")
     if [ "$(id -u)" -ne 0 ]; then
       if command -v sudo >/dev/null && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then

@@ -45,7 +45,7 @@ CPP
 reports_of() {
   local name=$1
   shift
-  clang++-14 -std=c++17 -g1 -O1 -fno-omit-frame-pointer -fsanitize=thread -pthread "$@" -o "$folder/$name"
+  clang++ -std=c++17 -g1 -O1 -fno-omit-frame-pointer -fsanitize=thread -pthread "$@" -o "$folder/$name"
   TSAN_OPTIONS="exitcode=0:second_deadlock_stack=1:log_path=$folder/$name.reports" "$folder/$name"
   grep -q 'WARNING: ThreadSanitizer' "$folder/$name".reports.* || { echo "$name: no report of the sanitizer"; exit 1; }
 }

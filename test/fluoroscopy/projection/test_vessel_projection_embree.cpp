@@ -1,7 +1,13 @@
 // Comparison of the vessel projection with the ray tracer Embree.
 
-#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
+
+// Debian 12 has Embree 3, Debian 13 Embree 4.
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
 
 #include <cmath>
 #include <vector>
@@ -48,9 +54,30 @@ geometry::TriangleMesh knot()
   return mesh;
 }
 
+#if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+
+void intersect(RTCScene scene, QueryContext& context, RTCRayHit& ray)
+{
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  rtcInitRayQueryContext(&context);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
+#else
+using QueryContext = RTCIntersectContext;
+
+void intersect(RTCScene scene, QueryContext& context, RTCRayHit& ray)
+{
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &ray);
+}
+#endif
+
 struct Sum
 {
-  RTCIntersectContext context;
+  QueryContext context;
   double length = 0.0;
 };
 
@@ -103,12 +130,11 @@ public:
   double pathLength(const Eigen::Vector3d& source, const Eigen::Vector3d& direction) const
   {
     Sum sum;
-    rtcInitIntersectContext(&sum.context);
     RTCRayHit ray{};
     const Eigen::Vector3f s = source.cast<float>(), d = direction.normalized().cast<float>();
     ray.ray = {s.x(), s.y(), s.z(), 0.0F, d.x(), d.y(), d.z(), 0.0F, 2.0F, 0xffffffffU, 0, 0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &sum.context, &ray);
+    intersect(scene_, sum.context, ray);
     return sum.length;
   }
 

@@ -5,14 +5,14 @@
 set -eu
 repository=$(cd "$(dirname "$0")/../../.." && pwd)
 build=$repository/catkin_ws/sanitized/python
-runtime=$(clang++-14 -print-file-name=libclang_rt.asan-x86_64.so)
+runtime=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
 checks="-fsanitize=address -shared-libasan"
 launcher=()
 if command -v ccache > /dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 
 mkdir -p "$build/endovascular_sim"
 {
-  cmake -S "$repository/python" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++-14 \
+  cmake -S "$repository/python" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
     -DENDOVASCULAR_FIND_CORE=OFF -DENDOVASCULAR_PACKAGE=endovascular_sim \
     -DPython3_EXECUTABLE=/usr/bin/python3 -DCMAKE_LIBRARY_OUTPUT_DIRECTORY="$build/endovascular_sim" \
     -DCMAKE_SHARED_LINKER_FLAGS="$checks" -DCMAKE_MODULE_LINKER_FLAGS="$checks" \
