@@ -78,7 +78,7 @@ def check(programs, name, path, out):
 
 def main():
     repository, programs, folder = sys.argv[1:]
-    results = bag_sessions.record(repository, folder + "/whole", repository + "/config/scenes/demo.yaml", "duration=3")
+    results = bag_sessions.record(repository, folder + "/whole", repository + "/config/scenes/demo.yaml", "duration=6")
     with open(results + "/session.bag", "rb") as stream:
         content = stream.read()
     steps = len(evs.Bag(results + "/session.bag").steps)

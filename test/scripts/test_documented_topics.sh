@@ -6,7 +6,7 @@ set -eu
 . "$repository/test/scripts/graph_environment.sh"
 
 /usr/bin/python3 - "$folder" "$repository" <<'PYTHON'
-import glob, os, re, subprocess, sys, time
+import concurrent.futures, glob, os, re, subprocess, sys, time
 import xmlrpc.client
 folder, repository = sys.argv[1:]
 sys.path.insert(0, repository + "/test/scripts")
@@ -71,13 +71,18 @@ def echo(uri):
     """Runs `rostopic echo` on a topic of every new message type; most topics publish within seconds, others never do."""
     topics = xmlrpc.client.ServerProxy(uri).getTopicTypes("/test")[2]
     chosen = {kind: name for name, kind in topics if kind != "*" and kind not in echoed}
-    for kind, name in sorted(chosen.items()):
+
+    def read(name):
         try:
             run = subprocess.run(["rostopic", "echo", "-n", "1", "--noarr", name], env=dict(os.environ, ROS_MASTER_URI=uri),
-                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=8)
-            echoed[kind] = run.stdout.decode(errors="replace")
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=12)
+            return run.stdout.decode(errors="replace")
         except subprocess.TimeoutExpired as late:
-            echoed[kind] = (late.stdout or b"").decode(errors="replace")
+            return (late.stdout or b"").decode(errors="replace")
+
+    # Those that never publish wait beside each other.
+    with concurrent.futures.ThreadPoolExecutor(8) as readers:
+        echoed.update(zip(chosen, readers.map(read, chosen.values())))
 
 
 def running(scene, arguments, extra):
