@@ -140,7 +140,7 @@ std::string gapText(const PrepareReport& r)
     return "";
   const NarrowGaps& g = r.gaps;
   if (g.kept + g.closed == 0)
-    return line("no gap between walls is narrower than two voxels");
+    return "no gap between walls is narrower than two voxels\n";
   std::string text = line("gaps between walls below two voxels: %d of %d samples retained", g.kept, g.kept + g.closed);
   if (g.closed > 0)
     text += line("  the widest closed gap was %.3f mm, near %s: a septum there requires --voxel %.2g",
