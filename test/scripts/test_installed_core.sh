@@ -17,6 +17,8 @@ if grep -rlE "$repository/(catkin_ws/src/endovascular_sim/)?(config|src|cmake|la
   echo "these installed files name the repository's sources"
   exit 1
 fi
+links=$(find "$installed" -type l -lname '*/*')
+[ -z "$links" ] || { echo "links that lead out of their folder: $links"; exit 1; }
 
 hash_of() { sed -n 's/.*trajectory_hash"*:* "*\([0-9a-f]\{16\}\).*/\1/p' "$1"; }
 cd "$folder"
